@@ -1,0 +1,145 @@
+// A scene as the program sees it: every value in SI, every name resolved, every default filled in.
+#pragma once
+#include "core/base/error.hpp"
+#include "core/registry/parameters.hpp"
+#include "core/registry/registry.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gault::core {
+
+enum class Symmetry { axisymmetric, plane_strain };
+enum class Frame { total, updated };
+enum class Basis { linear, quadratic };
+enum class Placement { uniform, gauss };
+enum class StressUpdate { usl, usf };
+
+// An axis-aligned rectangle in (r, y) or (x, y). Sides in the order low x, high x, low y, high y.
+struct Geometry {
+    std::string kind;                    // annulus | cylinder | block
+    std::array<double, 2> lower, upper;  // m
+    std::array<std::string, 4> surfaces; // annulus: inner outer bottom top; cylinder: axis outer bottom top;
+                                         // block: left right bottom top
+    Location where;
+};
+
+struct GridAxis {
+    int cells;
+    double ratio; // of neighbouring cells, high side over low side; 1 is uniform
+};
+
+struct ComponentUse { // a component named in the scene, with its parameters
+    const Component* component;
+    Parameters parameters;
+};
+
+struct MaterialUse {
+    std::string name;
+    ComponentUse model;
+    double density; // kg/m^3, initial
+};
+
+struct Region { // later regions win
+    std::string name;
+    int material;                       // index into Scene::materials
+    std::array<double, 2> lower, upper; // m, reference coordinates; a cell belongs if its centre does
+    Location where;
+};
+
+struct InitialStress { // compression positive, as written
+    // isotropic, or vertical and k0: horizontal = k0 * vertical; with gravity the vertical stress grows with depth:
+    // vertical(y) = vertical + sum of density * g over the soil between y and the top surface + density * g * depth
+    double vertical = 0.0; // Pa, at `depth` above the top surface (a surcharge)
+    double k0 = 1.0;
+    double depth = 0.0; // m, of the top surface below the ground
+    bool gravity = false; // the stress follows the weight of the soil
+    Location where;
+};
+
+struct BoundaryUse {
+    std::vector<int> surfaces; // indices into Geometry::surfaces
+    ComponentUse model;
+};
+
+struct SolverSettings {
+    double time_step_factor = 0.9; // of the true limit 2 / omega_max
+    double damping = 0.0;          // Cundall's local coefficient, 0 <= alpha < 1
+    double mass_scaling = 1.0;
+    StressUpdate stress_update = StressUpdate::usl;
+    Location where;
+};
+
+struct FrameRequest { // frames are written when `measure` (a column of the history, or "time") reaches each value
+    std::string measure; // "" : only the last state
+    std::vector<double> values;
+    Location where;
+};
+
+struct CurveReference { // the history against a file of two columns
+    std::string x, y;   // history columns without unit suffix: "cavity_strain", "true_pressure"
+    std::filesystem::path file;
+    double from, to;                  // range of x compared
+    std::optional<std::array<double, 2>> noise; // range of x for the RMS about a cubic fit of the run's own curve
+    Location where;
+};
+
+struct ProfileReference { // radial profiles of the raw point stress at frames
+    std::string measure;
+    struct At {
+        double value;
+        std::filesystem::path file;
+    };
+    std::vector<At> at;
+    Location where;
+};
+
+struct Scene {
+    std::string title;
+    std::string yaml; // as run, with every --set applied
+    std::filesystem::path file;
+
+    Symmetry symmetry;
+    Frame frame;
+    Basis basis;
+    Geometry geometry;
+    std::array<GridAxis, 2> axes;
+    int points_per_cell; // a square number
+    Placement placement;
+
+    std::vector<MaterialUse> materials;
+    int base_material; // of the soil outside every region
+    std::vector<Region> regions;
+    std::array<double, 2> gravity; // m/s^2
+    InitialStress initial_stress;
+    std::vector<BoundaryUse> boundaries;
+    std::optional<int> program_surface;
+    ComponentUse program;
+    SolverSettings solver;
+
+    FrameRequest frames;
+    std::vector<CurveReference> curves;
+    std::vector<ProfileReference> profiles;
+    struct ObserverUse {
+        std::optional<int> surface;
+        ComponentUse model;
+    };
+    std::vector<ObserverUse> observers;
+
+    std::vector<std::string> chosen; // what was left to the program and what it took: "frame: total (material stays in place)"
+};
+
+struct Override { // --set KEY=VALUE: dots for maps, numbers for list items
+    std::string key, value;
+};
+
+// The `plugins:` of a scene, relative to its folder, read before anything else so that the registry can be made.
+std::vector<std::filesystem::path> scene_plugins(const std::filesystem::path& file, const std::vector<Override>& overrides);
+
+// Throws InputError (file:line:column: what, what is allowed, the nearest right name).
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides, const Registry& registry);
+
+} // namespace gault::core

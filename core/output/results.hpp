@@ -1,0 +1,60 @@
+// Writes a run's results so that a kill at any moment leaves the last complete state readable.
+#pragma once
+#include "core/base/error.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace gault::core {
+
+struct ColumnInfo {
+    std::string name, unit, description; // "true_pressure", "Pa", "compression positive"
+    std::string header() const;          // "true_pressure_Pa"; "cavity_strain" where the unit is "1"
+};
+
+// One dataset of a frame. `fill` writes rows x components doubles, row-major, in the order of point identity, so that a
+// point keeps its row in every frame whatever the solver's own order is.
+struct Dataset {
+    ColumnInfo info;
+    int components = 1;
+    std::function<void(double*)> fill;
+};
+
+struct FrameAttribute {
+    std::string name, unit;
+    double value;
+};
+
+struct Provenance {
+    std::string scene_yaml;
+    nlohmann::json text; // program version, plugins (name, version, file, sha256), host, command line, thread count
+};
+
+// One folder of results: history.csv, summary.json, results.h5, results.xdmf.
+class ResultWriter {
+  public:
+    // Refuses (InputError) a folder that already holds results unless `replace`; nothing is touched then.
+    ResultWriter(std::filesystem::path folder, bool replace, std::vector<ColumnInfo> history_columns,
+                 const Provenance& provenance, std::size_t point_count);
+    ~ResultWriter();
+
+    void row(const std::vector<double>& values);                                            // history.csv
+    void frame(const std::vector<FrameAttribute>& attributes, const std::vector<Dataset>& datasets); // results.h5, results.xdmf
+    void summary(const nlohmann::json& summary);                                            // summary.json, atomically
+    void finish(); // the history into results.h5; one self-contained file
+
+    const std::vector<std::vector<double>>& rows() const; // the history so far
+    const std::filesystem::path& folder() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+std::string sha256_of_file(const std::filesystem::path& file); // hexadecimal
+
+} // namespace gault::core
