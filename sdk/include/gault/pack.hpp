@@ -93,7 +93,7 @@ GAULT_INLINE Pack abs(Pack a) { return select(a < Pack(0.0), -a, a); }
 
 GAULT_INLINE Pack sqrt(Pack a) {
 #if GAULT_PACK_LANES == 8
-    return Pack(reinterpret_cast<Pack::Vector>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(a.v))));
+    return Pack(reinterpret_cast<Pack::Vector>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(a.v))));
 #elif GAULT_PACK_LANES == 4
     return Pack(reinterpret_cast<Pack::Vector>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a.v))));
 #elif defined(__SSE2__)
@@ -117,7 +117,9 @@ GAULT_INLINE Pack pow(Pack a, double b) { return map([b](double x) { return std:
 // Sum over the lanes, pairwise: ((0+4)+(2+6)) + ((1+5)+(3+7)) for eight.
 GAULT_INLINE double sum(Pack a) {
 #if GAULT_PACK_LANES == 8
-    return _mm512_reduce_add_pd(reinterpret_cast<__m512d>(a.v));
+    const __m512d x = reinterpret_cast<__m512d>(a.v);
+    const __m256d y = _mm512_castpd512_pd256(x) + _mm512_maskz_extractf64x4_pd(0xf, x, 1);
+    return (y[0] + y[2]) + (y[1] + y[3]);
 #elif GAULT_PACK_LANES == 4
     return (a.v[0] + a.v[2]) + (a.v[1] + a.v[3]);
 #else
