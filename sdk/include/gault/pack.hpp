@@ -118,7 +118,7 @@ GAULT_INLINE Pack pow(Pack a, double b) { return map([b](double x) { return std:
 GAULT_INLINE double sum(Pack a) {
 #if GAULT_PACK_LANES == 8
     const __m512d x = reinterpret_cast<__m512d>(a.v);
-    const __m256d y = _mm512_castpd512_pd256(x) + _mm512_maskz_extractf64x4_pd(0xf, x, 1);
+    const __m256d y = _mm512_maskz_extractf64x4_pd(0xf, x, 0) + _mm512_maskz_extractf64x4_pd(0xf, x, 1);
     return (y[0] + y[2]) + (y[1] + y[3]);
 #elif GAULT_PACK_LANES == 4
     return (a.v[0] + a.v[2]) + (a.v[1] + a.v[3]);
