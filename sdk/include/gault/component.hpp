@@ -1,5 +1,6 @@
-// What the wrappers of every kind share: parameters declared once, as constant data bound to members;
-// creation and destruction; errors; the exported module.
+// clang-format off
+// What the wrappers of every kind share: parameters declared once, as constant data bound to members; creation
+// and destruction; errors; the exported module.
 //
 //   struct Spring {
 //       static constexpr const char* name = "spring";
@@ -11,18 +12,18 @@
 //       std::optional<double> limit; // may be absent from the scene
 //
 //       static constexpr std::array parameters{
-//           gault::parameter<&Spring::stiffness>("stiffness", "k", "Pa/m", "Stiffness of the
-//           support.").above(0), gault::parameter<&Spring::limit>("limit", "", "Pa", "Largest
-//           pressure.").above(0)};
+//           gault::parameter<&Spring::stiffness>("stiffness", "k", "Pa/m", "Of the support.").above(0),
+//           gault::parameter<&Spring::limit>("limit", "", "Pa", "Largest pressure.").above(0)};
 //
-//       void prepare(); // may be left out: checks what bounds cannot say, computes what follows; throws
-//       gault::Invalid
+//       void prepare(); // may be left out: checks what bounds cannot say, computes what follows; throws Invalid
 //   };
 //   GAULT_MODULE("spring", "1.0.0", "A. Author", "MIT", gault::Boundary<Spring>)
 //
-// A parameter is required unless it says fallback() or optional(). The member's type says what it is: double,
-// std::optional<double>, int, bool, an enum or int with choices(), std::string, std::vector<double>,
-// gault::Table, or gault::Records<Kind...>, each Kind being a struct with its own name, doc and parameters.
+// A parameter is required unless it says fallback() or optional(). The member's type says what it is: double, int,
+// bool, an enum with choices(), a std::optional of these (absent from the scene: empty), std::string,
+// std::vector<double>, gault::Table, or gault::Records<Kind...>, each Kind being a struct with its own name, doc
+// and parameters.
+// clang-format on
 #pragma once
 #include <gault/gault.h>
 #include <gault/pack.hpp>
@@ -177,17 +178,17 @@ Record read_record(const gault_item& item) {
     return kind;
 }
 
+template <class V>
+struct is_optional : std::false_type {};
+template <class V>
+struct is_optional<std::optional<V>> : std::true_type {};
+
 template <class V, class = void>
 struct Binding; // type of a parameter, and how its value is read
 template <>
 struct Binding<double> {
     static constexpr gault_type type = GAULT_REAL;
     static void read(const gault_value& v, double& out) { out = v.real; }
-};
-template <>
-struct Binding<std::optional<double>> {
-    static constexpr gault_type type = GAULT_REAL;
-    static void read(const gault_value& v, std::optional<double>& out) { out = v.real; }
 };
 template <>
 struct Binding<bool> {
@@ -198,6 +199,11 @@ template <class V>
 struct Binding<V, std::enable_if_t<std::is_enum_v<V> || std::is_integral_v<V>>> {
     static constexpr gault_type type = std::is_enum_v<V> ? GAULT_CHOICE : GAULT_INTEGER;
     static void read(const gault_value& v, V& out) { out = static_cast<V>(v.integer); }
+};
+template <class V>
+struct Binding<std::optional<V>> {
+    static constexpr gault_type type = Binding<V>::type;
+    static void read(const gault_value& v, std::optional<V>& out) { Binding<V>::read(v, out.emplace()); }
 };
 template <>
 struct Binding<std::string> {
@@ -242,7 +248,7 @@ constexpr Parameter declare(const char* name, const char* symbol, const char* x_
     gault_parameter p{};
     p.size = sizeof p;
     p.type = Binding<Value>::type;
-    p.flags = std::is_same_v<Value, std::optional<double>> ? GAULT_OPTIONAL : GAULT_REQUIRED;
+    p.flags = is_optional<Value>::value ? GAULT_OPTIONAL : GAULT_REQUIRED;
     p.name = name;
     p.symbol = symbol;
     p.unit = unit;
@@ -348,6 +354,11 @@ constexpr Parameter parameter(const char* name, const char* symbol, const char* 
 template <auto Member>
 constexpr Parameter table(const char* name, const char* x_unit, const char* unit, const char* doc) {
     return detail::declare<Member>(name, "", x_unit, unit, doc);
+}
+
+// A named scalar that is measured, commanded, remembered or recorded.
+constexpr gault_signal signal(const char* name, const char* unit, const char* doc, double initial = 0.0) {
+    return {name, unit, doc, initial};
 }
 
 } // namespace GAULT_ISA

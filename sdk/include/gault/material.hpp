@@ -1,22 +1,24 @@
-// A soil as one C++ struct: parameters and states declared once, and the update of one pack of material
-// points. The wrapper walks the batch, loads, calls, stores; nothing is allocated, no call is virtual, no
-// exception leaves.
+// clang-format off
+// A soil as one C++ struct: parameters and states declared once, and the update of one pack of material points.
+// The wrapper walks the batch, loads, calls, stores; nothing is allocated, no call is virtual, no exception
+// leaves. Called by [worker] threads, concurrently on the same const object.
 //
-//   struct Soil {                                // name, version, doc, parameters, prepare(): see
-//   component.hpp
-//       static constexpr std::array states{gault::scalar_state("plastic_strain", "1", "Accumulated.", 0.0,
-//       0.0)}; static constexpr int plastic_strain = gault::state_index(states, "plastic_strain"); static
-//       constexpr std::array inputs{"density"};  // host fields wanted, see gault.h; may be left out static
-//       constexpr bool has_tangent = true;       // update() sets the tangent when p.wants_tangent() static
-//       constexpr bool finite_strain = true;     // wants p.F_old(), p.F_new() static constexpr bool
-//       one_at_a_time = true;     // never called concurrently
+//   struct Soil { // name, version, doc, parameters, prepare(): see component.hpp
+//       void update(gault::Point& p) const; // required; the rest may be left out
 //
-//       void update(gault::Point& p) const;             // the only one that is required
-//       void start(gault::Point& p) const;              // before the first step: p.stress is the initial
-//       stress const std::vector<gault_state>& instance_states() const; // instead of `states`: they depend
-//       on parameters
+//       static constexpr std::array states{
+//           gault::scalar_state("plastic_strain", "1", "Accumulated.", 0.0, 0.0)}; // initial, least, largest
+//       static constexpr int plastic_strain = gault::state_index(states, "plastic_strain");
+//       static constexpr std::array inputs{"density"}; // host fields wanted, see gault.h
+//       static constexpr bool has_tangent = true;      // update() sets the tangent when p.wants_tangent()
+//       static constexpr bool finite_strain = true;    // wants p.F_old(), p.F_new()
+//       static constexpr bool one_at_a_time = true;    // never called concurrently
+//
+//       void start(gault::Point& p) const; // before the first step: p.stress is the initial stress
+//       const std::vector<gault_state>& instance_states() const; // replaces `states`: they depend on parameters
 //   };
 //   GAULT_MODULE("soil", "1.0.0", "A. Author", "MIT", gault::Material<Soil>)
+// clang-format on
 #pragma once
 #include <gault/component.hpp>
 
