@@ -4,8 +4,11 @@ namespace gault::core {
 
 std::string Location::text() const {
     if (line <= 0) return file;
-    std::string position = std::to_string(line) + (column > 0 ? ":" + std::to_string(column) : "");
-    return file.empty() ? position : file + ":" + position;
+    std::string text = file;
+    if (!file.empty()) text += ':';
+    text += std::to_string(line);
+    if (column > 0) text.append(":").append(std::to_string(column));
+    return text;
 }
 
 } // namespace gault::core
