@@ -1,0 +1,119 @@
+// Return of principal trial stresses to the surface, in the manner of Clausen, Damkilde and Andersen (2006):
+// the model is perfectly plastic and piecewise linear, so each region has a closed form and the signs of
+// linear functions say which region holds.
+#pragma once
+#include "surface.hpp"
+
+#include <gault/tensor.hpp>
+
+namespace mohr_coulomb {
+inline namespace GAULT_ISA {
+
+using gault::any;
+using gault::Mask;
+using gault::max;
+using gault::min;
+using gault::Pack;
+using gault::select;
+
+struct Returned {
+    Pack s1, s2, s3;     // Pa
+    Pack plastic_strain; // increment of sqrt(2/3 dep:dep)
+    Pack region;         // of type Region
+};
+
+GAULT_INLINE Mask yields(const Surface& k, Pack s1, Pack s3) {
+    const Mask shear = s1 - k.kappa * s3 > k.y;
+    return k.cut_off ? shear | (s1 > k.tension) : shear;
+}
+
+namespace detail {
+
+// Where the plane return leaves the order s1 >= s2 >= s3, an edge or the apex takes over. A trial state that
+// violates both inequalities lies beyond the apex; that the two edges exclude each other elsewhere is proved
+// in the README.
+GAULT_INLINE void return_to_edges(const Surface& k, const Returned& trial, Pack f, Mask compression,
+                                  Mask extension, Returned& r) {
+    const Pack d12 = trial.s1 - trial.s2, d23 = trial.s2 - trial.s3;
+    const Pack s3_compression = trial.s3 + (f - 0.5 * d12) * ((k.mu - k.l) * k.edge_hardness);
+    const Pack s3_extension =
+        (trial.s3 + 0.5 * d23) + (f - (0.5 * k.kappa) * d23) * ((0.5 * k.mu - k.l) * k.extension_hardness);
+    r.s3 = select(compression, s3_compression, r.s3);
+    r.s3 = select(extension, s3_extension, r.s3);
+    r.region = select(compression, double{compression_edge}, r.region);
+    r.region = select(extension, double{extension_edge}, r.region);
+    const Mask beyond = (r.s3 > k.apex) | (compression & extension & (Pack(k.apex) < HUGE_VAL));
+    r.s3 = select(beyond, k.apex, r.s3);
+    r.s1 = select(beyond, k.apex, k.kappa * r.s3 + k.y);
+    r.s2 = select(compression, r.s1, select(extension, r.s3, r.s2));
+    r.region = select(beyond, double{apex}, r.region);
+}
+
+// Where the return to the shear surface alone ends beyond the cut-off: the cut-off alone if that satisfies
+// the shear condition, else the line on which both hold, between its ends at s2 = s3 and s2 = s1.
+GAULT_INLINE void return_to_cut_off(const Surface& k, const Returned& trial, Mask beyond, Returned& r) {
+    const Pack t = k.tension;
+    const Pack lateral = k.tension_ratio * (trial.s1 - t);
+    Pack s2 = trial.s2 - lateral, s3 = trial.s3 - lateral;
+    Pack region = double{tension_plane};
+    const Mask edge = s2 > t;
+    s3 = select(edge, trial.s3 - k.poisson * ((trial.s1 - t) + (trial.s2 - t)), s3);
+    region = select(edge, double{tension_edge}, region);
+    region = select(s3 > t, double{fixed_point}, region);
+    s2 = min(s2, t);
+    s3 = min(s3, t);
+
+    const Mask both = !((trial.s1 > t) & (s3 >= k.tension_s3));
+    const Pack on_line = trial.s2 - k.poisson * ((trial.s1 - t) + (trial.s3 - k.tension_s3));
+    const Mask inside = (on_line > k.tension_s3) & (on_line < t);
+    region = select(both, select(inside, double{line}, double{fixed_point}), region);
+    s2 = select(both, min(max(on_line, k.tension_s3), t), s2);
+    s3 = select(both, k.tension_s3, s3);
+
+    r.s1 = select(beyond, t, r.s1);
+    r.s2 = select(beyond, s2, r.s2);
+    r.s3 = select(beyond, s3, r.s3);
+    r.region = select(beyond, region, r.region);
+}
+
+GAULT_INLINE Pack plastic_strain(const Surface& k, const Returned& trial, const Returned& r) {
+    const Pack d1 = trial.s1 - r.s1, d2 = trial.s2 - r.s2, d3 = trial.s3 - r.s3;
+    const Pack trace = d1 + d2 + d3;
+    const Pack square = (d1 * d1 + d2 * d2 + d3 * d3) - k.trace_weight * (trace * trace);
+    return gault::sqrt(max(k.strain_measure * square, 0.0));
+}
+
+} // namespace detail
+
+// For s1 >= s2 >= s3. Lanes that do not yield come back as they were.
+GAULT_INLINE Returned return_to_surface(const Surface& k, Pack s1, Pack s2, Pack s3) {
+    const Returned trial{s1, s2, s3, 0.0, 0.0};
+    const Pack f = max(s1 - k.kappa * s3 - k.y, 0.0);
+    const Mask shears = f > 0.0;
+    Returned r;
+    r.s3 = s3 + f * ((k.mu - k.l) * k.hardness);
+    r.s2 = s2 - f * (k.l * k.hardness);
+    r.s1 =
+        k.kappa * r.s3 + k.y; // from the surface, not from the trial state: F = 0 at the size of the result
+    r.plastic_strain = f * (k.hardness * k.plane_strain_measure);
+    r.region = double{plane};
+
+    const Mask compression = k.hardness * f > s1 - s2;
+    const Mask extension = (k.hardness * k.mu) * f > s2 - s3;
+    Mask general = compression | extension;
+    if (any(general)) detail::return_to_edges(k, trial, f, compression, extension, r);
+    r.s1 = select(shears, r.s1, s1);
+    r.region = select(shears, r.region, double{elastic});
+    if (k.cut_off) {
+        const Mask beyond = r.s1 > k.tension;
+        if (any(beyond)) detail::return_to_cut_off(k, trial, beyond, r);
+        general = general | beyond;
+    }
+    r.s2 = max(min(r.s2, r.s1), r.s3);
+    if (any(general))
+        r.plastic_strain = select(general, detail::plastic_strain(k, trial, r), r.plastic_strain);
+    return r;
+}
+
+} // namespace GAULT_ISA
+} // namespace mohr_coulomb
