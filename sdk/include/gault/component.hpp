@@ -138,6 +138,9 @@ constexpr auto terminated(const Array& array, Get get) {
     return terminated(array, get, std::make_index_sequence<std::tuple_size<Array>::value>());
 }
 
+constexpr const char* name_of(const char* name) {
+    return name;
+}
 constexpr const gault_parameter* declaration_of(const Parameter& p) {
     return &p.declaration;
 }

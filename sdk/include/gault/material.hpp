@@ -261,8 +261,7 @@ const gault_state* instance_states(const void* self, uint32_t* count) noexcept {
 
 template <class T>
 struct InputList {
-    static constexpr const char* get(const char* name) { return name; }
-    static constexpr auto names = terminated(T::inputs, get);
+    static constexpr auto names = terminated(T::inputs, name_of);
 };
 
 template <class T>
