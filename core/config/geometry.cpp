@@ -1,0 +1,134 @@
+#include "core/config/sections.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace gault::core::config {
+namespace {
+
+void read_annulus(const Fields& fields, Geometry& geometry) {
+    const double inner = fields.quantity("inner_radius", "m", positive);
+    const double outer = fields.quantity("outer_radius", "m", positive);
+    if (!(inner < outer))
+        throw InputError(fields.require("inner_radius").where(),
+                         fmt::format("{} is {}; it must be less than the outer radius, {}",
+                                     fields.path("inner_radius"), described(fields.require("inner_radius")),
+                                     described(fields.require("outer_radius"))));
+    const double bottom = fields.quantity("bottom", "m", {}, 0.0);
+    geometry.lower = {inner, bottom};
+    geometry.upper = {outer, bottom + fields.quantity("height", "m", positive)};
+    geometry.surfaces = {"inner", "outer", "bottom", "top"};
+}
+
+void read_cylinder(const Fields& fields, Geometry& geometry) {
+    const double bottom = fields.quantity("bottom", "m", {}, 0.0);
+    geometry.lower = {0.0, bottom};
+    geometry.upper = {fields.quantity("radius", "m", positive),
+                      bottom + fields.quantity("height", "m", positive)};
+    geometry.surfaces = {"axis", "outer", "bottom", "top"};
+}
+
+void read_block(const Fields& fields, Geometry& geometry) {
+    geometry.lower = {0.0, 0.0};
+    if (const Node* origin = fields.find("origin")) {
+        require_kind(*origin, NodeKind::list, fields.path("origin"));
+        if (origin->items.size() != 2)
+            throw InputError(origin->where(), fields.path("origin") + " must be [x, y]");
+        for (std::size_t i = 0; i < 2; ++i)
+            geometry.lower[i] = read_quantity(origin->items[i], fields.path("origin"), "m");
+    }
+    geometry.upper = {geometry.lower[0] + fields.quantity("width", "m", positive),
+                      geometry.lower[1] + fields.quantity("height", "m", positive)};
+    geometry.surfaces = {"left", "right", "bottom", "top"};
+}
+
+struct Shape {
+    std::string name;
+    std::vector<std::string> keys;
+    void (*read)(const Fields&, Geometry&);
+};
+
+const std::vector<Shape>& shapes() {
+    static const std::vector<Shape> all = {
+        {"annulus", {"inner_radius", "outer_radius", "height", "bottom"}, read_annulus},
+        {"cylinder", {"radius", "height", "bottom"}, read_cylinder},
+        {"block", {"width", "height", "origin"}, read_block}};
+    return all;
+}
+
+void check_symmetry(const Node& node, const Scene& scene) {
+    const bool block = scene.geometry.kind == "block";
+    if (block && scene.symmetry == Symmetry::axisymmetric)
+        throw InputError(node.where(), "model.symmetry: a block is not axisymmetric, it has no axis; "
+                                       "use the geometry annulus or cylinder, or plane_strain");
+    if (!block && scene.symmetry == Symmetry::plane_strain)
+        throw InputError(node.where(), "model.symmetry: the geometry " + scene.geometry.kind +
+                                           " is axisymmetric; use the geometry block for plane_strain");
+}
+
+} // namespace
+
+void note_choice(Scene& scene, const std::string& key, const std::string& value, const std::string& reason) {
+    scene.chosen.push_back(key + ": " + value + " (" + reason + ")");
+}
+
+std::array<std::string, 2> axis_names(const Geometry& geometry) {
+    return {geometry.kind == "block" ? "x" : "r", "y"};
+}
+
+int surface_index(const Node& node, const std::string& path, const Geometry& geometry) {
+    return index_of_name(node, path, {geometry.surfaces.begin(), geometry.surfaces.end()}, "surface");
+}
+
+void read_geometry(const Source& source, Scene& scene) {
+    std::vector<std::string> names;
+    for (const auto& shape : shapes())
+        names.push_back(shape.name);
+    const Node& node = source.root.require("geometry", "one of annulus, cylinder, block");
+    const Fields fields(node, "geometry", names);
+    if (node.keys.size() != 1)
+        throw InputError(node.where(), "geometry must be exactly one of annulus, cylinder, block");
+    const auto shape = std::find_if(shapes().begin(), shapes().end(), [&](const Shape& candidate) {
+        return candidate.name == node.keys[0].text;
+    });
+    scene.geometry.kind = shape->name;
+    scene.geometry.where = node.keys[0].place.location();
+    shape->read(Fields(fields.require(shape->name), fields.path(shape->name), shape->keys), scene.geometry);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        if (!(scene.geometry.lower[axis] < scene.geometry.upper[axis]))
+            throw InputError(scene.geometry.where,
+                             "geometry." + shape->name + " is too small for where it lies");
+}
+
+void read_model(const Source& source, Scene& scene) {
+    Node nothing;
+    nothing.kind = NodeKind::map;
+    const Node* node = source.root.find("model");
+    const Fields fields(node ? *node : nothing, "model", {"symmetry", "frame", "solver"});
+    scene.symmetry = scene.geometry.kind == "block" ? Symmetry::plane_strain : Symmetry::axisymmetric;
+    scene.frame = Frame::total;
+    const std::string shape =
+        "the geometry is " + std::string(scene.geometry.kind == "annulus" ? "an " : "a ");
+    if (const Node* symmetry = fields.find("symmetry"); !is_auto(symmetry)) {
+        const auto choice =
+            read_choice(*symmetry, fields.path("symmetry"), {"auto", "axisymmetric", "plane_strain"});
+        scene.symmetry = choice == 1 ? Symmetry::axisymmetric : Symmetry::plane_strain;
+        check_symmetry(*symmetry, scene);
+    } else {
+        note_choice(scene, "symmetry", scene.geometry.kind == "block" ? "plane_strain" : "axisymmetric",
+                    shape + scene.geometry.kind);
+    }
+    if (const Node* frame = fields.find("frame"); !is_auto(frame))
+        scene.frame = read_choice(*frame, fields.path("frame"), {"auto", "total", "updated"}) == 1
+                          ? Frame::total
+                          : Frame::updated;
+    else
+        note_choice(scene, "frame", "total", "material stays in place");
+    if (const Node* solver = fields.find("solver"); !is_auto(solver))
+        read_choice(*solver, fields.path("solver"), {"auto", "explicit"});
+    else
+        note_choice(scene, "solver", "explicit", "the only one there is");
+}
+
+} // namespace gault::core::config

@@ -1,0 +1,125 @@
+#include "core/config/component.hpp"
+#include "core/config/sections.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace gault::core::config {
+namespace {
+
+// Stresses that rise with depth, or are the same everywhere where there is no gravity.
+InitialStress read_vertical(const Fields& fields, bool gravity) {
+    InitialStress stress;
+    stress.gravity = gravity;
+    stress.k0 = fields.quantity("k0", "1", not_negative);
+    if (!gravity) {
+        if (const Node* depth = fields.find("depth"))
+            throw InputError(depth->where(),
+                             fields.path("depth") +
+                                 " needs gravity: without it the stress does not rise with depth");
+        if (fields.find("vertical") == nullptr)
+            throw InputError(fields.where(), fields.path() +
+                                                 " follows the weight of the soil, and there is no gravity; "
+                                                 "write `gravity: 9.81 m/s^2`, or the vertical stress");
+    }
+    stress.depth = fields.quantity("depth", "m", not_negative, 0.0);
+    stress.vertical = fields.quantity("vertical", "Pa", {}, 0.0);
+    return stress;
+}
+
+InitialStress read_stress(const Fields& fields, bool gravity) {
+    const Node* isotropic = fields.find("isotropic");
+    if (isotropic == nullptr) return read_vertical(fields, gravity);
+    for (const char* other : {"vertical", "k0", "depth"})
+        if (const Node* node = fields.find(other))
+            throw InputError(node->where(), fields.path(other) + " contradicts " + fields.path("isotropic") +
+                                                "; the stress is one or the other");
+    InitialStress stress;
+    stress.vertical = fields.quantity("isotropic", "Pa", {});
+    return stress;
+}
+
+void add_surface(BoundaryUse& boundary, const Node& node, const std::string& path, const Geometry& geometry) {
+    const int surface = surface_index(node, path, geometry);
+    if (geometry.surfaces[static_cast<std::size_t>(surface)] == "axis")
+        throw InputError(node.where(), path + ": the axis takes no boundary condition; "
+                                              "the radial velocity there is zero by symmetry");
+    if (std::find(boundary.surfaces.begin(), boundary.surfaces.end(), surface) != boundary.surfaces.end())
+        throw InputError(node.where(), path + ": the surface " + in_quotes(node.text) + " is named twice");
+    boundary.surfaces.push_back(surface);
+}
+
+BoundaryUse read_boundary(const Node& node, const std::string& path, const Source& source,
+                          const Scene& scene) {
+    require_kind(node, NodeKind::map, path);
+    BoundaryUse boundary{{}, read_component(node, path, {"on", "type"}, GAULT_BOUNDARY, source.registry)};
+    const auto& names = scene.geometry.surfaces;
+    const Node* on = node.find("on");
+    if (on == nullptr)
+        throw InputError(node.where(), path + ".on is missing: one or more of " + names[0] + ", " + names[1] +
+                                           ", " + names[2] + ", " + names[3]);
+    const auto surfaces = one_or_more(*on);
+    if (surfaces.empty()) throw InputError(on->where(), path + ".on names no surface");
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+        add_surface(boundary, *surfaces[i],
+                    path + (on->kind == NodeKind::list ? ".on." + std::to_string(i) : ".on"), scene.geometry);
+    return boundary;
+}
+
+} // namespace
+
+void read_gravity(const Source& source, Scene& scene) {
+    scene.gravity = {0.0, 0.0};
+    if (const double g = source.root.quantity("gravity", "m/s^2", not_negative, 0.0); g > 0.0)
+        scene.gravity[1] = -g;
+}
+
+void read_initial(const Source& source, Scene& scene) {
+    const Node* node = source.root.find("initial");
+    if (node == nullptr) {
+        scene.initial_stress.where = source.root.where();
+        note_choice(scene, "initial.stress", "0 Pa", "nothing is said");
+        return;
+    }
+    const Fields initial(*node, "initial", {"stress"});
+    const Node& stress = initial.require("stress", "{isotropic: 90 kPa} or {vertical: 100 kPa, k0: 0.5}");
+    const Fields fields(stress, "initial.stress", {"isotropic", "vertical", "k0", "depth"});
+    scene.initial_stress = read_stress(fields, scene.gravity[1] != 0.0);
+    scene.initial_stress.where = stress.where();
+}
+
+void read_boundaries(const Source& source, Scene& scene) {
+    const Node& boundaries = source.root.require("boundaries", "a list of {on: SURFACE, type: NAME, ...}");
+    require_kind(boundaries, NodeKind::list, "boundaries");
+    if (boundaries.items.empty())
+        throw InputError(boundaries.where(), "boundaries is empty; nothing would hold the soil");
+    for (std::size_t i = 0; i < boundaries.items.size(); ++i)
+        scene.boundaries.push_back(
+            read_boundary(boundaries.items[i], "boundaries." + std::to_string(i), source, scene));
+}
+
+void read_program(const Source& source, Scene& scene) {
+    const Node& program = source.root.require("program", "what is done to the soil: {type: NAME, ...}");
+    scene.program = read_component(program, "program", {"on", "type"}, GAULT_PROGRAM, source.registry);
+    if (const Node* on = program.find("on"))
+        scene.program_surface = surface_index(*on, "program.on", scene.geometry);
+}
+
+void read_solver(const Source& source, Scene& scene) {
+    const Node* node = source.root.find("solver");
+    scene.solver.where = node ? node->where() : source.root.where();
+    if (node == nullptr) return;
+    const Fields fields(*node, "solver", {"time_step_factor", "damping", "mass_scaling", "stress_update"});
+    SolverSettings& solver = scene.solver;
+    solver.time_step_factor = fields.quantity(
+        "time_step_factor", "1", {.min = 0.0, .max = 1.0, .min_open = true}, solver.time_step_factor);
+    solver.damping =
+        fields.quantity("damping", "1", {.min = 0.0, .max = 1.0, .max_open = true}, solver.damping);
+    solver.mass_scaling = fields.quantity("mass_scaling", "1", {.min = 1.0}, solver.mass_scaling);
+    if (const Node* update = fields.find("stress_update"))
+        solver.stress_update = read_choice(*update, "solver.stress_update", {"usl", "usf"}) == 0
+                                   ? StressUpdate::usl
+                                   : StressUpdate::usf;
+}
+
+} // namespace gault::core::config

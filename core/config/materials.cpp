@@ -1,0 +1,231 @@
+#include "core/config/component.hpp"
+#include "core/config/sections.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace gault::core::config {
+namespace {
+
+constexpr std::size_t most_regions = 1000;
+
+struct CellRange { // of a region, cells [first, last) along each axis
+    std::array<std::size_t, 2> first, last;
+};
+
+MaterialUse read_material(const Node& node, const std::string& name, const std::string& path,
+                          const Registry& registry) {
+    require_kind(node, NodeKind::map, path);
+    const Node* model = node.find("model");
+    if (model == nullptr)
+        throw InputError(node.where(), path + ".model is missing: the name of a material model");
+    const Component& component =
+        registry.find(GAULT_MATERIAL, read_name(*model, path + ".model"), model->where());
+    MaterialUse material{
+        name, {&component, read_parameters(node, path, {"model", "density"}, component)}, 0.0};
+    const Node* density = node.find("density");
+    if (density == nullptr)
+        throw InputError(node.where(), path + ".density is missing (of the soil at the start, kg/m^3)");
+    material.density = read_quantity(*density, path + ".density", "kg/m^3", positive);
+    return material;
+}
+
+std::vector<std::string> names_of(const std::vector<MaterialUse>& materials, std::size_t count) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count; ++i)
+        names.push_back(materials[i].name);
+    return names;
+}
+
+// The material's own map with some values replaced; every error stands where the override does.
+Node with_overrides(const Node& base, const Node& overrides, const std::string& path,
+                    const Component& component) {
+    auto keys = parameter_names(component.declaration->parameters);
+    keys.emplace_back("density");
+    const Fields fields(overrides, path, keys);
+    if (overrides.keys.empty()) throw InputError(overrides.where(), path + " changes nothing");
+    Node merged = base;
+    for (std::size_t i = 0; i < overrides.keys.size(); ++i) {
+        const auto same = std::find_if(merged.keys.begin(), merged.keys.end(),
+                                       [&](const Key& key) { return key.text == overrides.keys[i].text; });
+        if (same != merged.keys.end()) {
+            merged.items[static_cast<std::size_t>(same - merged.keys.begin())] = *fields.find(same->text);
+        } else {
+            merged.keys.push_back(overrides.keys[i]);
+            merged.items.push_back(*fields.find(overrides.keys[i].text));
+        }
+    }
+    return merged;
+}
+
+class RegionReader {
+  public:
+    RegionReader(const Source& source, Scene& scene, const Node& materials, const Node* soil)
+        : source_(source), scene_(scene), materials_(materials), soil_(soil),
+          declared_(scene.materials.size()), centres_{cell_centres(scene, 0), cell_centres(scene, 1)} {}
+
+    void read(const Node& regions);
+    bool covers_all_cells() const;
+
+  private:
+    const Source& source_;
+    Scene& scene_;
+    const Node& materials_;
+    const Node* soil_;
+    std::size_t declared_; // materials under `materials`; those of regions follow
+    std::array<std::vector<double>, 2> centres_;
+    std::vector<CellRange> ranges_;
+    std::size_t copied_ = 0; // nodes of materials that overrides repeat
+
+    void read_one(const Node& node, const std::string& path);
+    int material_of(const Fields& fields, const std::string& name);
+    void read_extent(const Fields& fields, Region& region);
+    CellRange cells_of(const Region& region) const;
+};
+
+void RegionReader::read(const Node& regions) {
+    require_kind(regions, NodeKind::list, "regions");
+    if (regions.items.size() > most_regions)
+        throw InputError(regions.where(),
+                         fmt::format("{} regions; allowed: {}", regions.items.size(), most_regions));
+    for (std::size_t i = 0; i < regions.items.size(); ++i)
+        read_one(regions.items[i], "regions." + std::to_string(i));
+}
+
+void RegionReader::read_one(const Node& node, const std::string& path) {
+    const auto axes = axis_names(scene_.geometry);
+    const Fields fields(node, path, {"name", "material", "overrides", axes[0], axes[1]});
+    Region region;
+    const Node& name = fields.require("name");
+    region.name = read_name(name, fields.path("name"));
+    region.where = node.where();
+    for (const auto& other : scene_.regions)
+        if (other.name == region.name)
+            throw InputError(name.where(), path + ": the region " + in_quotes(region.name) +
+                                               " is there already, at " + other.where.text());
+    region.material = material_of(fields, region.name);
+    read_extent(fields, region);
+    ranges_.push_back(cells_of(region));
+    scene_.regions.push_back(std::move(region));
+}
+
+int RegionReader::material_of(const Fields& fields, const std::string& name) {
+    const auto names = names_of(scene_.materials, declared_);
+    const Node* material = fields.find("material");
+    const Node* overrides = fields.find("overrides");
+    if (material == nullptr && overrides == nullptr)
+        throw InputError(fields.where(), fields.path() + " needs a material, or overrides of the soil's");
+    if (material == nullptr && soil_ == nullptr && declared_ != 1)
+        throw InputError(overrides->where(),
+                         fields.path("overrides") +
+                             ": of which material? name it in `material`, or the soil's in `soil`");
+    const int base = material ? index_of_name(*material, fields.path("material"), names, "material")
+                     : soil_  ? index_of_name(*soil_, "soil", names, "material")
+                              : 0;
+    if (overrides == nullptr) return base;
+    if (std::find(names.begin(), names.end(), name) != names.end())
+        throw InputError(fields.require("name").where(), fields.path() +
+                                                             ": its overrides make a material named " +
+                                                             in_quotes(name) + ", which is there already");
+    const auto index = static_cast<std::size_t>(base);
+    const Node merged = with_overrides(materials_.items[index], *overrides, fields.path("overrides"),
+                                       *scene_.materials[index].model.component);
+    copied_ += size_of(merged);
+    if (copied_ > most_nodes)
+        throw InputError(overrides->where(),
+                         fmt::format("more than {} values once overrides are applied", most_nodes));
+    scene_.materials.push_back(read_material(merged, name, fields.path("overrides"), source_.registry));
+    return static_cast<int>(scene_.materials.size()) - 1;
+}
+
+void RegionReader::read_extent(const Fields& fields, Region& region) {
+    const auto axes = axis_names(scene_.geometry);
+    const Geometry& geometry = scene_.geometry;
+    region.lower = geometry.lower;
+    region.upper = geometry.upper;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const Node* node = fields.find(axes[axis]);
+        if (node == nullptr) continue;
+        const auto range = read_range(*node, fields.path(axes[axis]), "m");
+        if (range[1] <= geometry.lower[axis] || range[0] >= geometry.upper[axis])
+            throw InputError(node->where(),
+                             fmt::format("{} lies outside of the grid, which goes from {:g} m to {:g} m",
+                                         fields.path(axes[axis]), geometry.lower[axis],
+                                         geometry.upper[axis]));
+        region.lower[axis] = range[0];
+        region.upper[axis] = range[1];
+    }
+}
+
+CellRange RegionReader::cells_of(const Region& region) const {
+    CellRange range{};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const auto& centres = centres_[axis];
+        const auto first = std::lower_bound(centres.begin(), centres.end(), region.lower[axis]);
+        const auto last = std::upper_bound(first, centres.end(), region.upper[axis]);
+        if (first == last)
+            throw InputError(
+                region.where,
+                fmt::format("the region {} takes hold of nothing: no cell has its centre between {:g} m and "
+                            "{:g} m along {}; widen it or refine the grid",
+                            in_quotes(region.name), region.lower[axis], region.upper[axis],
+                            axis_names(scene_.geometry)[axis]));
+        range.first[axis] = static_cast<std::size_t>(first - centres.begin());
+        range.last[axis] = static_cast<std::size_t>(last - centres.begin());
+    }
+    return range;
+}
+
+// Rows between two neighbouring edges of regions are alike: one of each suffices.
+bool RegionReader::covers_all_cells() const {
+    std::vector<std::size_t> rows{0};
+    for (const auto& range : ranges_)
+        for (const std::size_t row : {range.first[1], range.last[1]})
+            if (row < centres_[1].size()) rows.push_back(row);
+    auto by_first = ranges_;
+    std::sort(by_first.begin(), by_first.end(),
+              [](const auto& a, const auto& b) { return a.first[0] < b.first[0]; });
+    return std::all_of(rows.begin(), rows.end(), [&](std::size_t row) {
+        std::size_t covered = 0;
+        for (const auto& range : by_first)
+            if (range.first[1] <= row && row < range.last[1] && range.first[0] <= covered)
+                covered = std::max(covered, range.last[0]);
+        return covered == centres_[0].size();
+    });
+}
+
+int base_material(const Node* soil, const RegionReader& regions, std::size_t declared, const Node& materials,
+                  Scene& scene) {
+    if (soil != nullptr) return index_of_name(*soil, "soil", names_of(scene.materials, declared), "material");
+    if (declared == 1) return 0;
+    if (!regions.covers_all_cells())
+        throw InputError(materials.where(), "there are " + std::to_string(declared) +
+                                                " materials; name the one outside of the regions: `soil: " +
+                                                scene.materials.front().name + "`");
+    note_choice(scene, "soil", scene.materials.front().name, "the regions cover every cell");
+    return 0;
+}
+
+} // namespace
+
+void read_materials(const Source& source, Scene& scene) {
+    const Node& materials =
+        source.root.require("materials", "a map of names: {sand: {model: ..., density: ...}}");
+    require_kind(materials, NodeKind::map, "materials");
+    if (materials.items.empty())
+        throw InputError(materials.where(), "materials is empty; a scene has at least one");
+    for (std::size_t i = 0; i < materials.items.size(); ++i) {
+        const std::string path = "materials." + materials.keys[i].text;
+        if (materials.items[i].kind == NodeKind::null)
+            throw InputError(materials.items[i].where(), path + " has no value");
+        scene.materials.push_back(
+            read_material(materials.items[i], materials.keys[i].text, path, source.registry));
+    }
+    const std::size_t declared = scene.materials.size();
+    const Node* soil = source.root.find("soil");
+    RegionReader regions(source, scene, materials, soil);
+    if (const Node* node = source.root.find("regions")) regions.read(*node);
+    scene.base_material = base_material(soil, regions, declared, materials, scene);
+}
+
+} // namespace gault::core::config

@@ -1,0 +1,43 @@
+// The sections of a scene, in the order in which they are read: each may use what the ones before it have
+// filled in. All throw InputError.
+#pragma once
+#include "core/config/fields.hpp"
+#include "core/config/scene.hpp"
+
+namespace gault::core::config {
+
+struct Source { // what every section reads from
+    const Fields& root;
+    const Registry& registry;
+    std::filesystem::path folder; // that file names are relative to
+};
+
+void read_geometry(const Source& source, Scene& scene);
+void read_model(const Source& source, Scene& scene); // model: symmetry, frame, solver
+void read_grid(const Source& source, Scene& scene);
+void read_points(const Source& source, Scene& scene);
+void read_materials(const Source& source, Scene& scene); // materials, regions, soil
+void read_gravity(const Source& source, Scene& scene);
+void read_initial(const Source& source, Scene& scene);
+void read_boundaries(const Source& source, Scene& scene);
+void read_program(const Source& source, Scene& scene);
+void read_solver(const Source& source, Scene& scene);
+void read_output(const Source& source, Scene& scene);
+void read_reference(const Source& source, Scene& scene);
+
+// Notes what was left to the program: "frame: total (material stays in place)".
+void note_choice(Scene& scene, const std::string& key, const std::string& value, const std::string& reason);
+
+// "r" or "x", and "y".
+std::array<std::string, 2> axis_names(const Geometry& geometry);
+
+// Centres of the cells along one axis, m.
+std::vector<double> cell_centres(const Scene& scene, int axis);
+
+int surface_index(const Node& node, const std::string& path, const Geometry& geometry);
+
+// An existing file, named relative to the scene's folder.
+std::filesystem::path existing_file(const Node& node, const std::string& path,
+                                    const std::filesystem::path& folder);
+
+} // namespace gault::core::config
