@@ -16,8 +16,8 @@ struct ColumnInfo {
     std::string header() const;          // "true_pressure_Pa"; "cavity_strain" where the unit is "1"
 };
 
-// One dataset of a frame. `fill` writes rows x components doubles, row-major, in the order of point identity, so that a
-// point keeps its row in every frame whatever the solver's own order is.
+// One dataset of a frame. `fill` writes rows x components doubles, row-major, in the order of point identity,
+// so that a point keeps its row in every frame whatever the solver's own order is.
 struct Dataset {
     ColumnInfo info;
     int components = 1;
@@ -31,21 +31,29 @@ struct FrameAttribute {
 
 struct Provenance {
     std::string scene_yaml;
-    nlohmann::json text; // program version, plugins (name, version, file, sha256), host, command line, thread count
+    nlohmann::json
+        text; // program version, plugins (name, version, file, sha256), host, command line, thread count
 };
 
-// One folder of results: history.csv, summary.json, results.h5, results.xdmf.
+// One folder of results: history.csv, summary.json, results.h5, results.xdmf (docs/results.md says what they
+// hold). Numbers that are not finite reach no file: RunError names the column or dataset, and the row. So
+// does a failed write, with the file and the reason. [main thread]
 class ResultWriter {
   public:
-    // Refuses (InputError) a folder that already holds results unless `replace`; nothing is touched then.
+    // Makes the folder and its parents. InputError when it cannot be written, or already holds results and
+    // not `replace`: nothing is touched then. Replacing removes only files that a ResultWriter writes.
     ResultWriter(std::filesystem::path folder, bool replace, std::vector<ColumnInfo> history_columns,
                  const Provenance& provenance, std::size_t point_count);
     ~ResultWriter();
 
-    void row(const std::vector<double>& values);                                            // history.csv
-    void frame(const std::vector<FrameAttribute>& attributes, const std::vector<Dataset>& datasets); // results.h5, results.xdmf
-    void summary(const nlohmann::json& summary);                                            // summary.json, atomically
-    void finish(); // the history into results.h5; one self-contained file
+    void row(const std::vector<double>& values); // history.csv
+    // results.h5, results.xdmf. `time` (s) is among the attributes, `position` (3 components) among the
+    // datasets.
+    void frame(const std::vector<FrameAttribute>& attributes, const std::vector<Dataset>& datasets);
+    void summary(const nlohmann::json& summary); // summary.json; null where a number is not finite
+    // The whole history and every frame into one self-contained results.h5. Once; only summary() may follow.
+    // A run that was interrupted or failed ends with it too.
+    void finish();
 
     const std::vector<std::vector<double>>& rows() const; // the history so far
     const std::filesystem::path& folder() const;
