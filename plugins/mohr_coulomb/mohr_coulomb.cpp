@@ -66,7 +66,9 @@ GAULT_INLINE Updated update_stress(const Surface& k, const gault::SymmetricTenso
     Updated u = update_in_plane(k, trial);
     const Mask turned = oblique(trial);
     if (any(turned)) {
-        const Updated v = update_in_space(k, trial);
+        const Surface constants = k; // copies: whatever a call may see cannot stay in registers
+        const gault::SymmetricTensor given = trial;
+        const Updated v = update_in_space(constants, given);
         for (int i = 0; i < 6; ++i)
             u.stress[i] = select(turned, v.stress[i], u.stress[i]);
         u.plastic_strain = select(turned, v.plastic_strain, u.plastic_strain);
@@ -74,9 +76,17 @@ GAULT_INLINE Updated update_stress(const Surface& k, const gault::SymmetricTenso
     return u;
 }
 
-__attribute__((noinline)) void write_tangent(const Surface& k, const gault::SymmetricTensor& trial,
-                                             gault::Point& p) {
-    set_tangent(k, trial, p);
+__attribute__((noinline)) Tangent tangent_in_space(const Surface& k, const gault::SymmetricTensor& trial) {
+    return tangent(k, trial);
+}
+
+GAULT_INLINE void write_tangent(const Surface& k, const gault::SymmetricTensor& trial, gault::Point& p) {
+    const Surface constants = k;
+    const gault::SymmetricTensor given = trial;
+    const Tangent t = tangent_in_space(constants, given);
+    for (int row = 0; row < 6; ++row)
+        for (int column = 0; column < 6; ++column)
+            p.set_tangent(row, column, t[row][column]);
 }
 
 } // namespace
@@ -87,7 +97,7 @@ struct Model {
     static constexpr const char* doc = "Perfectly plastic Mohr-Coulomb with non-associated flow and a "
                                        "tension cut-off; Tresca at friction angle 0.";
     static constexpr const char* reference =
-        "Clausen, J., Damkilde, L. and Andersen, L. (2006), Int. J. Numer. Meth. Engng 66, 1831-1847";
+        "Clausen, J., Damkilde, L. and Andersen, L. (2006), Int. J. Numer. Meth. Engng 66, 1036-1059";
 
     double young_modulus, poisson_ratio, cohesion, friction_angle, dilation_angle = 0.0;
     std::optional<double> tension_strength;

@@ -3,10 +3,10 @@
 #pragma once
 #include "return_mapping.hpp"
 
-#include <gault/material.hpp>
-
 namespace mohr_coulomb {
 inline namespace GAULT_ISA {
+
+using Tangent = std::array<std::array<Pack, 6>, 6>; // [row][column], Pa
 
 namespace detail {
 
@@ -34,7 +34,7 @@ GAULT_INLINE Pack shrinkage(Pack before, Pack after, Mask kept) {
 
 // De Souza Neto, Peric and Owen (2008), appendix A: derivative of an isotropic tensor function, after the
 // elastic one.
-inline void set_tangent(const Surface& k, const gault::SymmetricTensor& trial, gault::Point& p) {
+GAULT_INLINE Tangent tangent(const Surface& k, const gault::SymmetricTensor& trial) {
     gault::Spectral s = gault::spectral(trial);
     gault::sort_descending(s);
     const Returned r = return_to_surface(k, s.value[0], s.value[1], s.value[2]);
@@ -55,6 +55,7 @@ inline void set_tangent(const Surface& k, const gault::SymmetricTensor& trial, g
             const Pack product = a[row[j]] * b[column[j]];
             dyad[i][j] = i < 3 ? product : product + a[column[j]] * b[row[j]];
         }
+    Tangent t;
     for (int j = 0; j < 6; ++j) {
         Pack elastic_stress[3], response[6];
         for (int i = 0; i < 3; ++i) {
@@ -71,9 +72,10 @@ inline void set_tangent(const Surface& k, const gault::SymmetricTensor& trial, g
             Pack sum = 0.0;
             for (int i = 0; i < 6; ++i)
                 sum += response[i] * dyad[i][c];
-            p.set_tangent(c, j, sum);
+            t[c][j] = sum;
         }
     }
+    return t;
 }
 
 } // namespace GAULT_ISA

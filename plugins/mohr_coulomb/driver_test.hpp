@@ -1,0 +1,244 @@
+// Drives the shared library through the contract, as the host does, and long-double principal stresses to
+// judge it by.
+#pragma once
+#include <dlfcn.h>
+#include <gault/gault.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mohr_coulomb_test {
+
+constexpr double degree = M_PI / 180.0;
+using Tensor = std::array<double, 6>; // xx yy zz xy yz zx
+using Principal = std::array<double, 3>;
+using Matrix = std::array<std::array<double, 3>, 3>;
+constexpr int row_of[] = {0, 1, 2, 0, 1, 2}, column_of[] = {0, 1, 2, 1, 2, 0};
+
+struct Parameters { // Pa, deg
+    double E = 100e6, nu = 0.25, c = 1e3, phi = 48, psi = 16.5;
+    std::optional<double> t{};
+    double kappa() const { return (1 - std::sin(phi * degree)) / (1 + std::sin(phi * degree)); }
+    double y() const { return 2 * c * std::cos(phi * degree) / (1 + std::sin(phi * degree)); }
+    double G() const { return E / (2 * (1 + nu)); }
+    double lame() const { return E * nu / ((1 + nu) * (1 - 2 * nu)); }
+    double shear_excess(const Principal& s) const { return s[0] - kappa() * s[2] - y(); } // > 0: outside, Pa
+    double excess(const Principal& s) const {
+        return t ? std::max(shear_excess(s), s[0] - *t) : shear_excess(s);
+    }
+};
+
+inline Matrix matrix(const Tensor& t) {
+    Matrix m{};
+    for (int i = 0; i < 6; ++i)
+        m[row_of[i]][column_of[i]] = m[column_of[i]][row_of[i]] = t[i];
+    return m;
+}
+inline Tensor rotated(const Tensor& t, const Matrix& q) { // q t q^T
+    const Matrix m = matrix(t);
+    Tensor r{};
+    for (int i = 0; i < 6; ++i)
+        for (int k = 0; k < 3; ++k)
+            for (int l = 0; l < 3; ++l)
+                r[i] += q[row_of[i]][k] * m[k][l] * q[column_of[i]][l];
+    return r;
+}
+inline double dot(const Tensor& a, const Tensor& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+inline double norm(const Tensor& a) {
+    return std::sqrt(dot(a, a));
+}
+inline Tensor minus(Tensor a, const Tensor& b) {
+    for (int i = 0; i < 6; ++i)
+        a[i] -= b[i];
+    return a;
+}
+inline Tensor diagonal(double a, double b, double c) {
+    return {a, b, c, 0, 0, 0};
+}
+
+// Descending, by classical Jacobi in long double.
+inline Principal principal(const Tensor& t) {
+    long double m[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            m[i][j] = matrix(t)[i][j];
+    for (int turn = 0; turn < 60; ++turn) {
+        int p = 0, q = 1;
+        if (std::fabs(m[0][2]) > std::fabs(m[p][q])) q = 2;
+        if (std::fabs(m[1][2]) > std::fabs(m[p][q])) p = 1, q = 2;
+        if (m[p][q] == 0) break;
+        const long double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
+        const long double tangent =
+            std::copysign(1 / (std::fabs(theta) + std::sqrt(theta * theta + 1)), theta);
+        const long double c = 1 / std::sqrt(tangent * tangent + 1), s = tangent * c;
+        const int r = 3 - p - q;
+        m[p][p] -= tangent * m[p][q];
+        m[q][q] += tangent * m[p][q];
+        const long double rp = m[r][p], rq = m[r][q];
+        m[r][p] = m[p][r] = c * rp - s * rq;
+        m[r][q] = m[q][r] = s * rp + c * rq;
+        m[p][q] = m[q][p] = 0;
+    }
+    Principal s{double(m[0][0]), double(m[1][1]), double(m[2][2])};
+    std::sort(s.begin(), s.end(), std::greater<>());
+    return s;
+}
+
+struct Random {
+    std::mt19937_64 engine{20240229};
+    double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(engine); }
+    double magnitude(double a, double b) { return std::pow(10.0, uniform(a, b)); } // 10^a to 10^b
+    Tensor tensor(double size) {
+        Tensor t;
+        for (double& x : t)
+            x = size * uniform(-1, 1);
+        return t;
+    }
+    Matrix rotation() { // of a random unit quaternion
+        std::normal_distribution<double> normal;
+        double w = normal(engine), x = normal(engine), y = normal(engine), z = normal(engine);
+        const double n = std::sqrt(w * w + x * x + y * y + z * z);
+        w /= n, x /= n, y /= n, z /= n;
+        return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                 {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                 {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
+    }
+};
+
+inline const gault_component& component(const std::string& folder = "") {
+    const std::string path = GAULT_BINARY_DIR "/lib/gault/plugins/" + folder + "mohr_coulomb.so";
+    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library) throw std::runtime_error(dlerror());
+    return *static_cast<const gault_module*>(dlsym(library, GAULT_ENTRY_SYMBOL))->components[0];
+}
+
+struct Refused : std::runtime_error {
+    int parameter;
+    Refused(const gault_error& e) : std::runtime_error(e.text), parameter(e.parameter) {}
+};
+
+// Points in, points out. Lengths of all vectors are equal.
+struct Batch {
+    std::vector<Tensor> stress_old, strain;
+    std::vector<Tensor> stress;
+    std::vector<double> plastic_strain; // in: old (0 if empty); out: new
+    std::vector<std::array<double, 36>> tangent;
+    double modulus = 0, shear_modulus = 0;
+};
+
+class Model {
+  public:
+    explicit Model(const Parameters& p, const std::string& folder = "") : component_(component(folder)) {
+        std::array<gault_value, 6> values{};
+        const double given[] = {p.E, p.nu, p.c, p.phi * degree, p.psi * degree, p.t.value_or(0)};
+        for (int i = 0; i < 6; ++i) {
+            values[i].real = given[i];
+            values[i].count = i < 5 || p.t;
+        }
+        gault_error error{};
+        if (component_.create(nullptr, values.data(), &self_, &error) != GAULT_OK) throw Refused(error);
+    }
+    ~Model() { component_.destroy(self_); }
+    Model(const Model&) = delete;
+    Model& operator=(const Model&) = delete;
+
+    void update(Batch& b, bool tangent = false) const {
+        gault_error error{};
+        const auto call = [&](gault_points& points) { return api().update(self_, &points, &error); };
+        if (run(b, tangent, call) != GAULT_OK) throw Refused(error);
+    }
+    gault_status start(const Tensor& stress, gault_error& error) const {
+        Batch b{{stress}, {Tensor{}}, {}, {}, {}};
+        return run(b, false, [&](gault_points& points) { return api().start(self_, &points, &error); });
+    }
+    Tensor update(const Tensor& stress_old, const Tensor& strain) const {
+        Batch b{{stress_old}, {strain}, {}, {}, {}};
+        update(b);
+        return b.stress[0];
+    }
+
+  private:
+    const gault_material_api& api() const { return *static_cast<const gault_material_api*>(component_.api); }
+
+    template <class Call>
+    gault_status run(Batch& b, bool tangent, Call call) const {
+        const int64_t n = int64_t(b.strain.size()),
+                      padded = (n + GAULT_LANES - 1) / GAULT_LANES * GAULT_LANES;
+        std::unique_ptr<double, decltype(&std::free)> memory(
+            static_cast<double*>(std::aligned_alloc(64, sizeof(double) * size_t(padded) * 58)), &std::free);
+        double* next = memory.get();
+        const auto array = [&](auto value) {
+            double* a = next;
+            for (int64_t i = 0; i < padded; ++i)
+                a[i] = value(size_t(std::min(i, n - 1)));
+            next += padded;
+            return a;
+        };
+        const auto nothing = [](size_t) { return std::nan(""); };
+        gault_points points{};
+        points.size = sizeof points;
+        points.count = n;
+        points.padded = padded;
+        for (int c = 0; c < 6; ++c) {
+            points.strain[c] = array([&](size_t i) { return b.strain[i][c]; });
+            points.stress_old[c] = array([&](size_t i) { return b.stress_old[i][c]; });
+            points.stress[c] = array([&](size_t i) { return b.stress_old[i][c]; });
+        }
+        points.state_old[0] =
+            array([&](size_t i) { return b.plastic_strain.empty() ? 0.0 : b.plastic_strain[i]; });
+        points.state[0] = array(nothing);
+        points.modulus = array(nothing);
+        points.shear_modulus = array(nothing);
+        if (tangent)
+            for (double*& t : points.tangent)
+                t = array(nothing);
+        const gault_status status = call(points);
+        b.stress.resize(size_t(n));
+        b.plastic_strain.assign(points.state[0], points.state[0] + n);
+        b.modulus = points.modulus[n - 1];
+        b.shear_modulus = points.shear_modulus[n - 1];
+        b.tangent.resize(tangent ? size_t(n) : 0);
+        for (size_t i = 0; i < size_t(n); ++i) {
+            for (int c = 0; c < 6; ++c)
+                b.stress[i][c] = points.stress[c][i];
+            for (int c = 0; tangent && c < 36; ++c)
+                b.tangent[i][c] = points.tangent[c][i];
+        }
+        return status;
+    }
+
+    const gault_component& component_;
+    void* self_ = nullptr;
+};
+
+// The soils that the random tests run through.
+inline std::vector<Parameters> soils() {
+    return {{},                                  // Fahey's
+            {70e6, 0.3, 1e3, 40, -2},            // Case III
+            {100e6, 0.25, 1e-6, 48, 16.5},       // hardly any cohesion
+            {100e6, 0.25, 0, 35, 0},             // none
+            {13e6, 0.3, 50e3, 0, 0},             // Tresca
+            {15e6, 0.4999, 50e3, 0, 0},          // nearly incompressible
+            {100e6, 0.25, 1e3, 1e-7, 0},         // a friction angle that is nearly 0
+            {100e6, -0.5, 1e3, 30, 10},          // auxetic
+            {100e6, 0.2, 1e3, 30, 30},           // associated
+            {100e6, 0.2, 1e3, 75, 40},           //
+            {100e6, 0.25, 1e3, 48, 16.5, 500.0}, // cut-off
+            {100e6, 0.25, 1e3, 40, -5, 0.0},     //
+            {100e6, 0.45, 10e3, 30, 0, 5e3},     //
+            {13e6, 0.3, 50e3, 0, 0, 10e3},       // Tresca with a cut-off
+            {100e6, 0.25, 10e3, 30, 10, 10e3 / std::tan(30 * degree) - 1e-6}}; // all but at the apex
+}
+
+} // namespace mohr_coulomb_test
