@@ -1,0 +1,2 @@
+#define PARAMETER .min = NAN
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .type = GAULT_CHOICE
+#include "tiny.h"

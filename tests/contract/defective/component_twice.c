@@ -1,0 +1,2 @@
+#define COMPONENTS &soil, &soil, NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define MODULE .abi_major = 2
+#include "tiny.h"

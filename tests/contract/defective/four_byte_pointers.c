@@ -1,0 +1,2 @@
+#define MODULE .pointer_bytes = 4
+#include "tiny.h"

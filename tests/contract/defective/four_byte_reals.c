@@ -1,0 +1,2 @@
+#define MODULE .real_bytes = 4
+#include "tiny.h"

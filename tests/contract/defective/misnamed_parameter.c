@@ -1,0 +1,2 @@
+#define PARAMETER .name = "2k"
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define MODULE .components = components + 1
+#include "tiny.h"

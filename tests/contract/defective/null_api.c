@@ -1,0 +1,2 @@
+#define COMPONENT .api = NULL
+#include "tiny.h"

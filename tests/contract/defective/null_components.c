@@ -1,0 +1,2 @@
+#define MODULE .components = NULL
+#include "tiny.h"

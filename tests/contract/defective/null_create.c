@@ -1,0 +1,2 @@
+#define COMPONENT .create = NULL
+#include "tiny.h"

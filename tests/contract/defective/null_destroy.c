@@ -1,0 +1,2 @@
+#define COMPONENT .destroy = NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define MODULE .license = NULL
+#include "tiny.h"

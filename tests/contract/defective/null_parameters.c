@@ -1,0 +1,2 @@
+#define COMPONENT .parameters = NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define COMPONENT .reference = NULL
+#include "tiny.h"

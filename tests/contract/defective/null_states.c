@@ -1,0 +1,2 @@
+#define API .states = NULL
+#include "tiny.h"

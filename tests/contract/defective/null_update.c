@@ -1,0 +1,2 @@
+#define API .update = NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define MODULE .size = 4096
+#include "tiny.h"

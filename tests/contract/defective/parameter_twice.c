@@ -1,0 +1,2 @@
+#define PARAMETERS &stiffness, &stiffness, NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .symbol = NULL
+#include "tiny.h"

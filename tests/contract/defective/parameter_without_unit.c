@@ -1,0 +1,2 @@
+#define PARAMETER .unit = NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .type = GAULT_RECORDS
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .flags = GAULT_REQUIRED | GAULT_OPTIONAL
+#include "tiny.h"

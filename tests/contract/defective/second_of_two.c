@@ -1,0 +1,2 @@
+#define NAME "doubled"
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define COMPONENT .name = "Tiny Soil"
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define STATE .shape = (gault_shape)9
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define STATE .initial = -1.0
+#include "tiny.h"

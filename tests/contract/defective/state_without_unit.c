@@ -1,0 +1,2 @@
+#define STATE .unit = NULL
+#include "tiny.h"

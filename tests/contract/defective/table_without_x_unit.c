@@ -1,0 +1,2 @@
+#define PARAMETER .type = GAULT_TABLE
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .flags = 0, .type = GAULT_TEXT_VALUE
+#include "tiny.h"

@@ -1,0 +1,3 @@
+double missing_function(double);
+double (*wanted)(double) = missing_function;
+#include "tiny.h"

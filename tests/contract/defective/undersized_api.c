@@ -1,0 +1,2 @@
+#define API .size = 8
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define COMPONENT .size = 16
+#include "tiny.h"

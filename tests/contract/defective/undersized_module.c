@@ -1,0 +1,2 @@
+#define MODULE .size = 32
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .size = 4
+#include "tiny.h"

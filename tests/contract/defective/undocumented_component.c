@@ -1,0 +1,2 @@
+#define COMPONENT .doc = NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .doc = ""
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define COMPONENT .kind = 9
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define PARAMETER .type = 17
+#include "tiny.h"

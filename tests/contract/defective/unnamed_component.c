@@ -1,0 +1,2 @@
+#define COMPONENT .name = NULL
+#include "tiny.h"

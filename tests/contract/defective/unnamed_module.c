@@ -1,0 +1,2 @@
+#define MODULE .name = ""
+#include "tiny.h"

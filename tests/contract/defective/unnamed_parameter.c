@@ -1,0 +1,2 @@
+#define PARAMETER .name = NULL
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define COMPONENT .version = ""
+#include "tiny.h"

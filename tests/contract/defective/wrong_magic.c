@@ -1,0 +1,2 @@
+#define MODULE .magic = 0x12345678
+#include "tiny.h"

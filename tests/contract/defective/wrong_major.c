@@ -1,0 +1,2 @@
+#define ENTRY gault_module_v2
+#include "tiny.h"
