@@ -1,15 +1,13 @@
 // Drives the shared library through the contract, as the host does, and long-double principal stresses to
 // judge it by.
 #pragma once
-#include <dlfcn.h>
-#include <gault/gault.h>
 #include <gtest/gtest.h>
+#include <plugin_fixture.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -18,8 +16,8 @@
 
 namespace mohr_coulomb_test {
 
-constexpr double degree = M_PI / 180.0;
-using Tensor = std::array<double, 6>; // xx yy zz xy yz zx
+using plugin_test::degree;
+using plugin_test::Tensor; // xx yy zz xy yz zx
 using Principal = std::array<double, 3>;
 using Matrix = std::array<std::array<double, 3>, 3>;
 constexpr int row_of[] = {0, 1, 2, 0, 1, 2}, column_of[] = {0, 1, 2, 1, 2, 0};
@@ -116,18 +114,6 @@ struct Random {
     }
 };
 
-inline const gault_component& component(const std::string& folder = "") {
-    const std::string path = GAULT_BINARY_DIR "/lib/gault/plugins/" + folder + "mohr_coulomb.so";
-    void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!library) throw std::runtime_error(dlerror());
-    return *static_cast<const gault_module*>(dlsym(library, GAULT_ENTRY_SYMBOL))->components[0];
-}
-
-struct Refused : std::runtime_error {
-    int parameter;
-    Refused(const gault_error& e) : std::runtime_error(e.text), parameter(e.parameter) {}
-};
-
 // Points in, points out. Lengths of all vectors are equal.
 struct Batch {
     std::vector<Tensor> stress_old, strain;
@@ -137,89 +123,63 @@ struct Batch {
     double modulus = 0, shear_modulus = 0;
 };
 
+inline plugin_test::Settings settings(const Parameters& p) {
+    plugin_test::Settings s{{"young_modulus", p.E},
+                            {"poisson_ratio", p.nu},
+                            {"cohesion", p.c},
+                            {"friction_angle", p.phi * degree},
+                            {"dilation_angle", p.psi * degree}};
+    if (p.t) s["tension_strength"] = *p.t;
+    return s;
+}
+
 class Model {
   public:
-    explicit Model(const Parameters& p, const std::string& folder = "") : component_(component(folder)) {
-        std::array<gault_value, 6> values{};
-        const double given[] = {p.E, p.nu, p.c, p.phi * degree, p.psi * degree, p.t.value_or(0)};
-        for (int i = 0; i < 6; ++i) {
-            values[i].real = given[i];
-            values[i].count = i < 5 || p.t;
-        }
-        gault_error error{};
-        if (component_.create(nullptr, values.data(), &self_, &error) != GAULT_OK) throw Refused(error);
-    }
-    ~Model() { component_.destroy(self_); }
-    Model(const Model&) = delete;
-    Model& operator=(const Model&) = delete;
+    explicit Model(const Parameters& p, const std::string& variant = "")
+        : component_("mohr_coulomb", GAULT_MATERIAL, "mohr_coulomb", settings(p), variant) {}
 
     void update(Batch& b, bool tangent = false) const {
-        gault_error error{};
-        const auto call = [&](gault_points& points) { return api().update(self_, &points, &error); };
-        if (run(b, tangent, call) != GAULT_OK) throw Refused(error);
-    }
-    gault_status start(const Tensor& stress, gault_error& error) const {
-        Batch b{{stress}, {Tensor{}}, {}, {}, {}};
-        return run(b, false, [&](gault_points& points) { return api().start(self_, &points, &error); });
+        const int64_t count = int64_t(b.strain.size());
+        plugin_test::Batch batch(component_, count, tangent);
+        for (int64_t i = 0; i < (count + 7) / 8 * 8; ++i) {
+            const size_t from = size_t(std::min(i, count - 1));
+            batch.set_strain(i, b.strain[from]);
+            batch.set_stress_old(i, b.stress_old[from]);
+            if (!b.plastic_strain.empty()) batch.state_old[0][i] = b.plastic_strain[from];
+        }
+        if (batch.update() != GAULT_OK) throw std::runtime_error(batch.error.text);
+        b.stress.resize(size_t(count));
+        b.plastic_strain.assign(batch.state[0].data(), batch.state[0].data() + count);
+        b.modulus = batch.modulus[count - 1];
+        b.shear_modulus = batch.shear_modulus[count - 1];
+        b.tangent.resize(tangent ? size_t(count) : 0);
+        for (int64_t i = 0; i < count; ++i) {
+            b.stress[size_t(i)] = batch.stress_at(i);
+            for (size_t c = 0; tangent && c < 36; ++c)
+                b.tangent[size_t(i)][c] = batch.tangent[c][i];
+        }
     }
     Tensor update(const Tensor& stress_old, const Tensor& strain) const {
         Batch b{{stress_old}, {strain}, {}, {}, {}};
         update(b);
         return b.stress[0];
     }
-
-  private:
-    const gault_material_api& api() const { return *static_cast<const gault_material_api*>(component_.api); }
-
-    template <class Call>
-    gault_status run(Batch& b, bool tangent, Call call) const {
-        const int64_t n = int64_t(b.strain.size()),
-                      padded = (n + GAULT_LANES - 1) / GAULT_LANES * GAULT_LANES;
-        std::unique_ptr<double, decltype(&std::free)> memory(
-            static_cast<double*>(std::aligned_alloc(64, sizeof(double) * size_t(padded) * 58)), &std::free);
-        double* next = memory.get();
-        const auto array = [&](auto value) {
-            double* a = next;
-            for (int64_t i = 0; i < padded; ++i)
-                a[i] = value(size_t(std::min(i, n - 1)));
-            next += padded;
-            return a;
-        };
-        const auto nothing = [](size_t) { return std::nan(""); };
+    gault_status start(const Tensor& stress, gault_error& error) const {
+        plugin_test::Columns strain(6, plugin_test::Column(1)), old(6, plugin_test::Column(1));
         gault_points points{};
         points.size = sizeof points;
-        points.count = n;
-        points.padded = padded;
-        for (int c = 0; c < 6; ++c) {
-            points.strain[c] = array([&](size_t i) { return b.strain[i][c]; });
-            points.stress_old[c] = array([&](size_t i) { return b.stress_old[i][c]; });
-            points.stress[c] = array([&](size_t i) { return b.stress_old[i][c]; });
+        points.count = 1;
+        points.padded = GAULT_LANES;
+        for (size_t c = 0; c < 6; ++c) {
+            old[c] = plugin_test::Column(1, stress[c]);
+            points.strain[c] = strain[c].data();
+            points.stress_old[c] = points.stress[c] = old[c].data();
         }
-        points.state_old[0] =
-            array([&](size_t i) { return b.plastic_strain.empty() ? 0.0 : b.plastic_strain[i]; });
-        points.state[0] = array(nothing);
-        points.modulus = array(nothing);
-        points.shear_modulus = array(nothing);
-        if (tangent)
-            for (double*& t : points.tangent)
-                t = array(nothing);
-        const gault_status status = call(points);
-        b.stress.resize(size_t(n));
-        b.plastic_strain.assign(points.state[0], points.state[0] + n);
-        b.modulus = points.modulus[n - 1];
-        b.shear_modulus = points.shear_modulus[n - 1];
-        b.tangent.resize(tangent ? size_t(n) : 0);
-        for (size_t i = 0; i < size_t(n); ++i) {
-            for (int c = 0; c < 6; ++c)
-                b.stress[i][c] = points.stress[c][i];
-            for (int c = 0; tangent && c < 36; ++c)
-                b.tangent[i][c] = points.tangent[c][i];
-        }
-        return status;
+        return component_.api<gault_material_api>().start(component_.self(), &points, &error);
     }
 
-    const gault_component& component_;
-    void* self_ = nullptr;
+  private:
+    plugin_test::Component component_;
 };
 
 // The soils that the random tests run through.
