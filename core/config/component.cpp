@@ -109,10 +109,8 @@ gault_value ValueReader::fallback(const Fields& fields, const gault_parameter& p
         return single(p.fallback);
     case GAULT_CHOICE:
         return choice(p, static_cast<std::size_t>(p.fallback));
-    case GAULT_TEXT_VALUE:
-        return text("");
     default:
-        return absent(); // an empty list
+        return absent(); // the other types have no default
     }
 }
 

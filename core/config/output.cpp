@@ -18,7 +18,7 @@ void add_value(std::vector<double>& values, double value, const Location& where,
     values.push_back(value);
 }
 
-FrameRequest read_frames(const Node& node, const Scene& scene) {
+FrameRequest read_frames(const Node& node, const Records& records) {
     require_kind(node, NodeKind::map, "output.frames");
     if (node.keys.size() != 1)
         throw InputError(node.where(), "output.frames must be a single {measure: [values]}; found " +
@@ -27,7 +27,7 @@ FrameRequest read_frames(const Node& node, const Scene& scene) {
     frames.measure = node.keys[0].text;
     frames.where = node.keys[0].place.location();
     const std::string path = "output.frames." + frames.measure;
-    const std::string unit = Records(scene.program).unit(node.keys[0], "output.frames");
+    const std::string unit = records.unit(node.keys[0], "output.frames");
     const auto values = one_or_more(node.items[0]);
     if (values.empty() || values[0]->kind == NodeKind::null)
         throw InputError(node.items[0].where(), path + " has no value");
@@ -42,9 +42,8 @@ FrameRequest read_frames(const Node& node, const Scene& scene) {
 }
 
 CurveReference read_curve(const Node& node, const std::string& path, const Source& source,
-                          const Scene& scene) {
+                          const Records& records) {
     const Fields fields(node, path, {"x", "y", "file", "range", "noise_range"});
-    const Records records(scene.program);
     const Key x = key_of(fields.require("x", "a record of the program"), fields.path("x"));
     const Key y = key_of(fields.require("y", "a record of the program"), fields.path("y"));
     const std::string unit = records.unit(x, fields.path("x"));
@@ -73,10 +72,10 @@ void check_frame(const Key& key, const std::string& path, double value, const st
 }
 
 ProfileReference read_profile(const Node& node, const std::string& path, const Source& source,
-                              const Scene& scene) {
+                              const Records& records, const FrameRequest& frames) {
     const Fields fields(node, path, {"measure", "files"});
     const Key measure = key_of(fields.require("measure", "a record of the program"), fields.path("measure"));
-    const std::string unit = Records(scene.program).unit(measure, fields.path("measure"));
+    const std::string unit = records.unit(measure, fields.path("measure"));
     const Node& files =
         require_kind(fields.require("files", "{2.5 %: file.csv, ...}"), NodeKind::map, fields.path("files"));
     if (files.keys.empty()) throw InputError(files.where(), fields.path("files") + " is empty");
@@ -90,7 +89,7 @@ ProfileReference read_profile(const Node& node, const std::string& path, const S
         quantity.place = key.place;
         const double value = read_quantity(quantity, fields.path("files"), unit);
         add_value(values, value, key.place.location(), fields.path("files"));
-        check_frame(key, fields.path("files"), value, measure.text, scene.frames);
+        check_frame(key, fields.path("files"), value, measure.text, frames);
         profile.at.push_back(
             {value, existing_file(files.items[i], fields.path("files") + "." + key.text, source.folder)});
     }
@@ -137,7 +136,7 @@ void read_output(const Source& source, Scene& scene) {
     scene.frames.where = source.root.where();
     if (node != nullptr)
         if (const Node* frames = Fields(*node, "output", {"frames"}).find("frames")) {
-            scene.frames = read_frames(*frames, scene);
+            scene.frames = read_frames(*frames, Records(scene.program));
             return;
         }
     note_choice(scene, "output.frames", "the last state", "none are asked for");
@@ -147,11 +146,12 @@ void read_reference(const Source& source, Scene& scene) {
     const Node* node = source.root.find("reference");
     if (node == nullptr) return;
     const Fields fields(*node, "reference", {"curve", "profiles", "observers"});
+    const Records records(scene.program);
     read_items(fields, "curve", scene.curves, [&](const Node& item, const std::string& path) {
-        return read_curve(item, path, source, scene);
+        return read_curve(item, path, source, records);
     });
     read_items(fields, "profiles", scene.profiles, [&](const Node& item, const std::string& path) {
-        return read_profile(item, path, source, scene);
+        return read_profile(item, path, source, records, scene.frames);
     });
     read_items(fields, "observers", scene.observers, [&](const Node& item, const std::string& path) {
         return read_observer(item, path, source, scene);
