@@ -1,0 +1,37 @@
+# cmake -DBUILD= -DCOMPILER= -DLOADER= -DWORK= -P template_test.cmake
+function(must)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT status EQUAL 0)
+        list(JOIN ARGN " " command)
+        message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(must_print text)
+    string(FIND "${output}" "${text}" at)
+    if(at EQUAL -1)
+        message(FATAL_ERROR "'${text}' is not in:\n${output}")
+    endif()
+endfunction()
+
+set(prefix ${WORK}/prefix)
+set(plugins ${WORK}/installed/lib/gault/plugins)
+file(REMOVE_RECURSE ${WORK})
+must(${CMAKE_COMMAND} --install ${BUILD} --component sdk --prefix ${prefix})
+
+# The copy that was installed, against the headers that were installed: nothing of the repository is in reach.
+must(${CMAKE_COMMAND} -E copy_directory ${prefix}/share/gault/template ${WORK}/source)
+must(${CMAKE_COMMAND} -S ${WORK}/source -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER}
+     -DCMAKE_CXX_FLAGS=-Werror)
+must(${CMAKE_COMMAND} --build ${WORK}/build)
+must(${CMAKE_CTEST_COMMAND} --test-dir ${WORK}/build --output-on-failure)
+must_print("100% tests passed")
+must(${CMAKE_COMMAND} --install ${WORK}/build --prefix ${WORK}/installed)
+
+foreach(isa baseline x86-64-v3 x86-64-v4)
+    must(${CMAKE_COMMAND} -E env GAULT_ISA=${isa} ${LOADER} ${plugins})
+    must_print("material von_mises 1.0.0")
+    must_print("${plugins}/")
+    must_print("undrained_strength  s_u     Pa    required")
+endforeach()
