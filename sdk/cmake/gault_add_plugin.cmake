@@ -25,7 +25,11 @@ function(gault_add_plugin name)
 endfunction()
 
 function(_gault_add_plugin_variant target name folder sources no_install)
+    # One exported symbol: instances of the standard library's templates are visible by default and must stay inside.
+    set(exports ${CMAKE_CURRENT_BINARY_DIR}/gault_plugin.map)
+    file(CONFIGURE OUTPUT ${exports} CONTENT "{ global: gault_module_v*; local: *; };\n")
     add_library(${target} MODULE ${sources})
+    target_link_options(${target} PRIVATE -Wl,--version-script=${exports})
     target_link_libraries(${target} PRIVATE gault::sdk m)
     target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -fvisibility=hidden -Wno-psabi
                                              $<$<COMPILE_LANGUAGE:CXX>:-fvisibility-inlines-hidden>

@@ -1,0 +1,76 @@
+// Runs a program as the scheduler does: at the end of every step, which ends no later than the program's next
+// event.
+#pragma once
+#include "plugin_fixture.hpp"
+
+#include <algorithm>
+
+namespace plugin_test {
+
+class ProgramRun {
+  public:
+    explicit ProgramRun(const Component& program) : program_(program), signals_(signals_of(program)) {
+        for (uint32_t i = 0; i < signals_.control_count; ++i)
+            control.push_back(signals_.controls[i].initial);
+        for (uint32_t i = 0; i < signals_.memory_count; ++i)
+            memory_.push_back(signals_.memories[i].initial);
+        measure.resize(signals_.measure_count, std::nan(""));
+        record.resize(signals_.record_count, std::nan(""));
+    }
+    ProgramRun(const ProgramRun&) = delete;
+
+    // Calls the program; the step that begins now is dt() long.
+    gault_status advance(double wanted_dt) {
+        gault_step step{};
+        step.size = sizeof step;
+        step.index = index++;
+        step.time = time;
+        step.dt = last_dt_;
+        step.smallest_dt = wanted_dt;
+        step.measure = measure.data();
+        step.control = control.data();
+        step.memory = memory_.data();
+        step.record = record.data();
+        const gault_status status = program_.api<gault_program_api>().advance(program_.self(), &step, &error);
+        done = step.done != 0;
+        if (step.emit) rows.push_back(record);
+        next = step.next;
+        last_dt_ = std::min(wanted_dt, next - time);
+        return status;
+    }
+    double dt() const { return last_dt_; }
+    void shorten(double part) { last_dt_ *= part; } // what the host does when a step does not converge
+    double& measured(const std::string& name) {
+        return measure[index_of(signals_.measures, signals_.measure_count, name)];
+    }
+    double& commanded(const std::string& name) {
+        return control[index_of(signals_.controls, signals_.control_count, name)];
+    }
+    double recorded(const std::vector<double>& row, const std::string& name) const {
+        return row[index_of(signals_.records, signals_.record_count, name)];
+    }
+
+    std::vector<double> measure, control, record;
+    std::vector<std::vector<double>> rows;
+    double time = 0.0, next = 0.0;
+    int64_t index = 0;
+    bool done = false;
+    gault_error error{-1, 0, -1, ""};
+
+  private:
+    static const gault_program_signals& signals_of(const Component& program) {
+        const auto& api = program.api<gault_program_api>();
+        return api.instance_signals ? *api.instance_signals(program.self()) : *api.signals;
+    }
+    static std::size_t index_of(const gault_signal* list, uint32_t count, const std::string& name) {
+        for (uint32_t i = 0; i < count; ++i)
+            if (name == list[i].name) return i;
+        throw std::runtime_error("no signal " + name);
+    }
+    const Component& program_;
+    const gault_program_signals& signals_;
+    std::vector<double> memory_;
+    double last_dt_ = 0.0;
+};
+
+} // namespace plugin_test
