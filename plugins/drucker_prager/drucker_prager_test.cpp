@@ -60,7 +60,6 @@ TEST(DruckerPrager, FailsInTriaxialCompressionWhereMohrCoulombDoes) {
     const Component c = soil();
     Batch b(c, 1);
     // Radial stress held at 100 kPa: relaxed with the elastic stiffness.
-    // step.
     b.set_stress_old(0, {-100e3, -100e3, -100e3, 0.0, 0.0, 0.0});
     double radial = poisson_ratio * 1e-4;
     for (int step = 0; step < 200; ++step) {
