@@ -1,19 +1,5 @@
 # cmake -DBUILD= -DCOMPILER= -DLOADER= -DWORK= -P template_test.cmake
-function(must)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0)
-        list(JOIN ARGN " " command)
-        message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
-    endif()
-    set(output "${output}" PARENT_SCOPE)
-endfunction()
-
-function(must_print text)
-    string(FIND "${output}" "${text}" at)
-    if(at EQUAL -1)
-        message(FATAL_ERROR "'${text}' is not in:\n${output}")
-    endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/must.cmake)
 
 set(prefix ${WORK}/prefix)
 set(plugins ${WORK}/installed/lib/gault/plugins)

@@ -2,5 +2,9 @@
  * This is what gcc makes of inline data and of templates' static data, unless -fno-gnu-unique or hidden
  * visibility say otherwise. */
 #define NAME "unique_one"
+#define ENTRY own_module
 #include "tiny.h"
-__asm__(".type gault_module_v1, %gnu_unique_object");
+__asm__(".type gault_module_v1, %gnu_unique_object\n"
+        ".set gault_module_v1, own_module\n"
+        ".size gault_module_v1, 72\n");
+_Static_assert(sizeof(gault_module) == 72, "size of the symbol");

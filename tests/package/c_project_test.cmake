@@ -1,0 +1,15 @@
+# cmake -DBUILD= -DSOURCE= -DLOADER= -DWORK= -P c_project_test.cmake: a project without any C++.
+include(${CMAKE_CURRENT_LIST_DIR}/must.cmake)
+
+file(REMOVE_RECURSE ${WORK})
+must(${CMAKE_COMMAND} --install ${BUILD} --component sdk --prefix ${WORK}/prefix)
+file(COPY_FILE ${SOURCE} ${WORK}/hypoelastic.c)
+file(WRITE ${WORK}/CMakeLists.txt "cmake_minimum_required(VERSION 3.20)
+project(hypoelastic LANGUAGES C)
+find_package(gault 0.1 REQUIRED)
+gault_add_plugin(hypoelastic hypoelastic.c)
+")
+must(${CMAKE_COMMAND} -S ${WORK} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+must(${CMAKE_COMMAND} --build ${WORK}/build)
+must(${LOADER} ${WORK}/build/lib/gault/plugins)
+must_print("material hypoelastic 1.2.0")
