@@ -1,6 +1,5 @@
 #include "core/output/frame_file.hpp"
 #include "core/output/atomic_file.hpp"
-#include "core/output/hdf5_file.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,28 +27,13 @@ void fill_finite(std::vector<double>& values, const Dataset& dataset, std::size_
                                position / components, position % components, *bad));
 }
 
-void fill_file(const std::filesystem::path& file, const std::string& frame, std::size_t rows,
-               const std::vector<FrameAttribute>& attributes, const std::vector<Dataset>& datasets) {
-    Hdf5File out(file);
-    for (const auto& [name, unit, value] : attributes) {
-        out.attribute("/", name, value);
-        out.attribute("/", name + "_unit", unit);
-    }
-    std::vector<double> values;
-    for (const Dataset& dataset : datasets) {
-        fill_finite(values, dataset, rows, frame);
-        out.numbers("/" + dataset.info.name, dataset.info, rows, dataset.components, values.data());
-    }
-    out.close();
-}
-
 } // namespace
 
-std::string frame_name(std::size_t number) {
-    return fmt::format("{:04}", number);
+std::string frame_path(std::size_t number) {
+    return fmt::format("/frames/{:04}", number);
 }
 std::string frame_file_name(std::size_t number) {
-    return "frames/" + frame_name(number) + ".h5";
+    return fmt::format("frames/{:04}.h5", number);
 }
 
 bool is_frame_file(const std::string& name) {
@@ -58,25 +42,47 @@ bool is_frame_file(const std::string& name) {
     return digits >= 4 && (rest == ".h5" || rest == ".h5.tmp");
 }
 
+void put_frame(Hdf5File& out, std::size_t number, std::size_t point_count,
+               const std::vector<FrameAttribute>& attributes, const std::vector<Dataset>& datasets) {
+    const std::string group = frame_path(number);
+    out.group(group);
+    for (const auto& [name, unit, value] : attributes) {
+        out.attribute(group, name, value);
+        out.attribute(group, name + "_unit", unit);
+    }
+    std::vector<double> values;
+    for (const Dataset& dataset : datasets) {
+        fill_finite(values, dataset, point_count, group);
+        out.numbers(group + "/" + dataset.info.name, dataset.info, point_count, dataset.components,
+                    values.data());
+    }
+}
+
 FrameRecord write_frame(const std::filesystem::path& folder, std::size_t number, std::size_t point_count,
                         const std::vector<FrameAttribute>& attributes, const std::vector<Dataset>& datasets) {
-    const std::string frame = "frame " + frame_name(number);
-    FrameRecord record{time_of(attributes, frame), {}};
+    const std::string path = frame_path(number);
+    FrameRecord record{time_of(attributes, path), attributes, {}};
     for (const auto& [name, unit, value] : attributes)
-        if (!std::isfinite(value))
-            throw RunError(fmt::format("{}: attribute '{}' is {}", frame, name, value));
-    for (const Dataset& dataset : datasets)
-        record.fields.push_back({dataset.info.name, dataset.components});
+        if (!std::isfinite(value)) throw RunError(fmt::format("{}: attribute '{}' is {}", path, name, value));
 
     const std::filesystem::path file = folder / frame_file_name(number);
     try {
-        fill_file(temporary_name(file), frame, point_count, attributes, datasets);
+        Hdf5File out(temporary_name(file));
+        out.group("/frames");
+        put_frame(out, number, point_count, attributes, datasets);
+        out.close();
     } catch (...) {
         std::error_code ignored;
         std::filesystem::remove(temporary_name(file), ignored);
         throw;
     }
     publish(file);
+    for (const auto& [info, components, fill] : datasets) {
+        const auto read_back = [file, place = path + "/" + info.name](double* out) {
+            read_numbers(file, place, out);
+        };
+        record.datasets.push_back({info, components, read_back});
+    }
     return record;
 }
 

@@ -127,17 +127,19 @@ void Hdf5File::text(const std::string& path, const std::string& description, con
 }
 
 void Hdf5File::link(const std::string& path, const std::string& relative_file) {
-    check(H5Lcreate_external(relative_file.c_str(), "/", file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT));
-}
-
-void Hdf5File::copy(const std::string& path, const std::filesystem::path& file) {
-    const Hdf5Handle source(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    if (source < 0) throw RunError(fmt::format("cannot read '{}': {}", file.string(), reason()));
-    check(H5Ocopy(source, "/", file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT));
+    check(H5Lcreate_external(relative_file.c_str(), path.c_str(), file_, path.c_str(), H5P_DEFAULT,
+                             H5P_DEFAULT));
 }
 
 void Hdf5File::close() {
     check(H5Fclose(file_.release()));
+}
+
+void read_numbers(const std::filesystem::path& file, const std::string& path, double* values) {
+    const Hdf5Handle source(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    const Hdf5Handle dataset(H5Dopen2(source, path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        throw RunError(fmt::format("cannot read '{}': {}", file.string(), reason()));
 }
 
 } // namespace gault::core

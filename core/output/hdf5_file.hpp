@@ -38,8 +38,7 @@ class Hdf5File {
     void numbers(const std::string& path, const ColumnInfo& info, std::size_t rows, int components,
                  const double* values);
     void text(const std::string& path, const std::string& description, const std::string& value);
-    void link(const std::string& path, const std::string& relative_file);  // to the root of another file
-    void copy(const std::string& path, const std::filesystem::path& file); // the root of another file
+    void link(const std::string& path, const std::string& relative_file); // to the same path there
     void close(); // the file is complete only after this
 
   private:
@@ -50,5 +49,8 @@ class Hdf5File {
     std::filesystem::path name_;
     Hdf5Handle file_;
 };
+
+// A dataset of doubles of a closed file into `values`, which holds all of it.
+void read_numbers(const std::filesystem::path& file, const std::string& path, double* values);
 
 } // namespace gault::core

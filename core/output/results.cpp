@@ -93,11 +93,10 @@ struct ResultWriter::Impl {
         write_history(out);
         out.group("/frames");
         for (std::size_t number = 0; number < frames.size(); ++number) {
-            const std::string path = "/frames/" + frame_name(number);
             if (finished)
-                out.copy(path, folder / frame_file_name(number));
+                put_frame(out, number, point_count, frames[number].attributes, frames[number].datasets);
             else
-                out.link(path, frame_file_name(number));
+                out.link(frame_path(number), frame_file_name(number));
         }
         out.close();
         publish(file);

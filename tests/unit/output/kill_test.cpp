@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <random>
 #include <sys/wait.h>
@@ -20,33 +21,44 @@ namespace {
 
 constexpr std::size_t points = 200, frames = 3, rows_a_frame = 60;
 
-void whole_run(const fs::path& folder) {
+constexpr int milestones = frames + 2; // the start, every frame, the end
+
+void whole_run(const fs::path& folder, const std::function<void()>& reached) {
+    reached();
     ResultWriter out = writer(folder, points, true);
     for (std::size_t frame = 0; frame < frames; ++frame) {
         for (std::size_t i = 0; i < rows_a_frame; ++i)
             out.row(row(frame * rows_a_frame + i));
         out.frame(attributes(frame), datasets(frame, points));
         out.summary({{"status", "running"}, {"frames", frame}});
+        reached();
     }
     out.finish();
     out.summary({{"status", "done"}, {"frames", frames}});
+    reached();
 }
 
-// The child says when it starts, so that delays count from there.
-pid_t start_a_run(const fs::path& folder) {
-    int ready[2];
-    if (pipe(ready) != 0) throw std::runtime_error("no pipe");
+// A child that makes a whole run and is killed a random moment after it has reached a random milestone.
+void kill_a_run(const fs::path& folder, int milestone, duration<double> delay) {
+    int reached[2];
+    ASSERT_EQ(pipe(reached), 0);
     const pid_t child = fork();
     if (child == 0) {
-        if (write(ready[1], "!", 1) != 1) _exit(1);
+        whole_run(folder, [&] {
+            if (write(reached[1], "!", 1) != 1) _exit(1);
+        });
         for (;;)
-            whole_run(folder);
+            pause();
     }
-    char byte = 0;
-    if (read(ready[0], &byte, 1) != 1) throw std::runtime_error("no child");
-    close(ready[0]);
-    close(ready[1]);
-    return child;
+    for (char byte; milestone > 0; --milestone)
+        ASSERT_EQ(read(reached[0], &byte, 1), 1);
+    std::this_thread::sleep_for(delay);
+    kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    close(reached[0]);
+    close(reached[1]);
 }
 
 void expect_whole_history(const fs::path& file) {
@@ -87,20 +99,16 @@ TEST(Results, AreWholeAfterAKillAtAnyMoment) {
     std::ofstream(results / "frames" / "mine.h5") << "mine";
 
     const auto start = steady_clock::now();
-    whole_run(results);
-    const double one_run = duration<double>(steady_clock::now() - start).count();
+    whole_run(results, [] {});
+    const duration<double> one_run = steady_clock::now() - start;
 
     std::mt19937 random(20240607);
-    std::uniform_real_distribution<double> delay(0.0, 1.5 * one_run);
+    std::uniform_int_distribution<int> milestone(1, milestones);
+    std::uniform_real_distribution<double> fraction(0.0, 1.5 / milestones);
     int killed_between_frames = 0, finished = 0;
-    for (int repetition = 0; repetition < 200 && !testing::Test::HasFailure(); ++repetition) {
+    for (int repetition = 0; repetition < 100 && !HasFailure(); ++repetition) {
         SCOPED_TRACE(repetition);
-        const pid_t child = start_a_run(results);
-        std::this_thread::sleep_for(duration<double>(delay(random)));
-        kill(child, SIGKILL);
-        int status = 0;
-        ASSERT_EQ(waitpid(child, &status, 0), child);
-        ASSERT_TRUE(WIFSIGNALED(status));
+        kill_a_run(results, milestone(random), fraction(random) * one_run);
 
         if (fs::exists(results / "history.csv")) expect_whole_history(results / "history.csv");
         if (fs::exists(results / "summary.json")) {

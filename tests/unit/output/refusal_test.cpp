@@ -70,7 +70,7 @@ TEST(Results, AFrameThatIsNotFiniteIsRefusedByDatasetAndRow) {
     };
     EXPECT_THAT(
         [&] { out.frame(attributes(1), bad); },
-        ThrowsMessage<RunError>(HasSubstr("frame 0001: dataset 'stress', row 2, component 4 is nan")));
+        ThrowsMessage<RunError>(HasSubstr("/frames/0001: dataset 'stress', row 2, component 4 is nan")));
     EXPECT_THAT(
         [&] {
             out.frame({{"time", "s", infinity}}, datasets(1, 3));
