@@ -139,7 +139,8 @@ class Image {
             if (s.p_type != PT_LOAD) continue;
             part(file, s.p_offset, s.p_filesz, "loadable segment");
             const bool aligned = s.p_align <= 1 || s.p_vaddr % s.p_align == s.p_offset % s.p_align;
-            if (s.p_filesz > s.p_memsz || s.p_vaddr < end || s.p_vaddr + s.p_memsz < s.p_vaddr || !aligned)
+            const bool fits = s.p_filesz == s.p_memsz || (s.p_filesz < s.p_memsz && s.p_flags & PF_W);
+            if (!fits || s.p_vaddr < end || s.p_vaddr + s.p_memsz < s.p_vaddr || !aligned)
                 fail("is damaged: its loadable segments overlap or contradict themselves");
             end = s.p_vaddr + s.p_memsz;
         }
@@ -162,7 +163,7 @@ class Image {
     Bytes dynamic() const {
         const Elf64_Phdr* s = segment(PT_DYNAMIC);
         if (!s) fail("is not a shared library: it has no dynamic section");
-        return part(file_, s->p_offset, s->p_filesz, "dynamic section");
+        return part(from(s->p_vaddr, "dynamic section"), 0, s->p_filesz, "dynamic section");
     }
 
   private:
