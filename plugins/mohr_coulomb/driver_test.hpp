@@ -186,6 +186,7 @@ class Model {
 inline std::vector<Parameters> soils() {
     return {{},                                  // Fahey's
             {70e6, 0.3, 1e3, 40, -2},            // Case III
+            {100e6, 0.45, 1e3, 40, -5},          // close to the limit of contraction, -5.6 deg
             {100e6, 0.25, 1e-6, 48, 16.5},       // hardly any cohesion
             {100e6, 0.25, 0, 35, 0},             // none
             {13e6, 0.3, 50e3, 0, 0},             // Tresca

@@ -19,9 +19,8 @@ GAULT_INLINE Updated update_in_plane(const Surface& k, const gault::SymmetricTen
     const gault::InPlaneSpectral p = gault::in_plane_spectral(trial);
     const Pack zz = trial[2];
     const Pack s1 = max(p.high, zz), s2 = max(p.low, min(p.high, zz)), s3 = min(p.low, zz);
-    Updated u{trial, 0.0};
     const Mask plastic = yields(k, s1, s3);
-    if (!any(plastic)) return u;
+    if (!any(plastic)) return {trial, 0.0};
 
     const Pack inverse = 1.0 / max(p.radius, std::numeric_limits<double>::min());
     const Returned r = return_to_surface(k, s1, s2, s3);
@@ -30,12 +29,10 @@ GAULT_INLINE Updated update_in_plane(const Surface& k, const gault::SymmetricTen
     const Pack low = select(zz_last, r.s2, r.s3);
     const Pack mean = 0.5 * (high + low), scale = 0.5 * (high - low) * inverse;
     const Pack half = p.half_difference * scale;
-    u.stress[0] = select(plastic, mean + half, trial[0]);
-    u.stress[1] = select(plastic, mean - half, trial[1]);
-    u.stress[2] = select(plastic, select(zz_first, r.s1, select(zz_last, r.s3, r.s2)), zz);
-    u.stress[3] = select(plastic, trial[3] * scale, trial[3]);
-    u.plastic_strain = r.plastic_strain;
-    return u;
+    const Pack between = select(zz_first, r.s1, select(zz_last, r.s3, r.s2));
+    return {{select(plastic, mean + half, trial[0]), select(plastic, mean - half, trial[1]),
+             select(plastic, between, zz), select(plastic, trial[3] * scale, trial[3]), trial[4], trial[5]},
+            r.plastic_strain};
 }
 
 __attribute__((noinline)) Updated update_in_space(const Surface& k, const gault::SymmetricTensor& trial) {

@@ -35,9 +35,8 @@ namespace detail {
 GAULT_INLINE void return_to_edges(const Surface& k, const Returned& trial, Pack f, Mask compression,
                                   Mask extension, Returned& r) {
     const Pack d12 = trial.s1 - trial.s2, d23 = trial.s2 - trial.s3;
-    const Pack s3_compression = trial.s3 + (f - 0.5 * d12) * ((k.mu - k.l) * k.edge_hardness);
-    const Pack s3_extension =
-        (trial.s3 + 0.5 * d23) + (f - (0.5 * k.kappa) * d23) * ((0.5 * k.mu - k.l) * k.extension_hardness);
+    const Pack s3_compression = trial.s3 + (f - 0.5 * d12) * k.s3_gain_compression;
+    const Pack s3_extension = (trial.s3 + 0.5 * d23) + (f - k.half_kappa * d23) * k.s3_gain_extension;
     r.s3 = select(compression, s3_compression, r.s3);
     r.s3 = select(extension, s3_extension, r.s3);
     r.region = select(compression, double{compression_edge}, r.region);
@@ -91,15 +90,15 @@ GAULT_INLINE Returned return_to_surface(const Surface& k, Pack s1, Pack s2, Pack
     const Pack f = max(s1 - k.kappa * s3 - k.y, 0.0);
     const Mask shears = f > 0.0;
     Returned r;
-    r.s3 = s3 + f * ((k.mu - k.l) * k.hardness);
-    r.s2 = s2 - f * (k.l * k.hardness);
+    r.s3 = s3 + f * k.s3_gain;
+    r.s2 = s2 - f * k.s2_loss;
     r.s1 =
         k.kappa * r.s3 + k.y; // from the surface, not from the trial state: F = 0 at the size of the result
-    r.plastic_strain = f * (k.hardness * k.plane_strain_measure);
+    r.plastic_strain = f * k.strain_gain;
     r.region = double{plane};
 
-    const Mask compression = k.hardness * f > s1 - s2;
-    const Mask extension = (k.hardness * k.mu) * f > s2 - s3;
+    const Mask compression = k.per_f * f > s1 - s2;
+    const Mask extension = k.order_23 * f > s2 - s3;
     Mask general = compression | extension;
     if (any(general)) detail::return_to_edges(k, trial, f, compression, extension, r);
     r.s1 = select(shears, r.s1, s1);

@@ -34,16 +34,21 @@ struct Soil { // Pa, rad
 };
 
 struct Surface {
-    double lame, twice_shear;                           // Pa
-    double kappa, y;                                    // 1, Pa
-    double apex, tension;                               // Pa; infinity where there is none
-    double tension_s3;                                  // s3 where the shear plane meets the cut-off, Pa
-    bool cut_off;                                       // the cut-off lies before the apex
-    double hardness, edge_hardness, extension_hardness; // D per unit of F: plane, s1 = s2, s2 = s3
-    double mu, l, poisson;                              // see above
+    double lame, twice_shear;                  // Pa
+    double kappa, y;                           // 1, Pa
+    double apex, tension;                      // Pa; infinity where there is none
+    double tension_s3;                         // s3 where the shear plane meets the cut-off, Pa
+    bool cut_off;                              // the cut-off lies before the apex
+    double mu, l, poisson;                     // see above
+    double per_f;                              // D of a plane return, per unit of F
+    double per_f_compression, per_f_extension; // of the edges s1 = s2 and s2 = s3
+    double s2_loss, s3_gain, order_23,
+        strain_gain;                     // plane, per unit of F: -d s2, d s3, mu D, equivalent strain
+    double s3_gain_compression;          // edges, per unit of their F
+    double s3_gain_extension;            //
+    double half_kappa;                   //
     double tension_ratio;                // -d s2/d s1 of a return to the cut-off: lambda/(lambda + 2G)
-    double plane_strain_measure;         // equivalent plastic strain per unit of D, 1/Pa
-    double strain_measure, trace_weight; // its square is strain_measure (D:D - trace_weight (tr D)^2)
+    double strain_measure, trace_weight; // square of the equivalent strain: measure (D:D - weight (tr D)^2)
     double jacobian[region_count][9];    // d s / d s_trial, row-major, of every region
 };
 
@@ -78,10 +83,10 @@ inline void fill_jacobians(Surface& k) {
         for (double& entry : region)
             entry = 0.0; // apex and fixed points stay so
     project(k.jacobian[elastic], none, {0, 0, 0}, {0, 0, 0}, 0.0);
-    project(k.jacobian[plane], none, {1 + k.l, k.l, low}, {1, 0, -k.kappa}, k.hardness);
-    project(k.jacobian[compression_edge], first, {high, high, low}, {.5, .5, -k.kappa}, k.edge_hardness);
+    project(k.jacobian[plane], none, {1 + k.l, k.l, low}, {1, 0, -k.kappa}, k.per_f);
+    project(k.jacobian[compression_edge], first, {high, high, low}, {.5, .5, -k.kappa}, k.per_f_compression);
     project(k.jacobian[extension_edge], last, {1 + k.l, joined, joined}, {1, -.5 * k.kappa, -.5 * k.kappa},
-            k.extension_hardness);
+            k.per_f_extension);
     project(k.jacobian[tension_plane], none, {1, r, r}, {1, 0, 0}, 1.0);
     k.jacobian[tension_edge][6] = k.jacobian[tension_edge][7] = -nu;
     k.jacobian[tension_edge][8] = 1.0;
@@ -111,12 +116,18 @@ inline Surface surface(const Soil& m) {
     k.tension_ratio = nu / (1.0 - nu);
 
     const double low = k.l - k.mu, joined = k.l - 0.5 * k.mu;
-    k.hardness = 1.0 / (1.0 + k.l - k.kappa * low);
-    k.edge_hardness = 1.0 / (0.5 + k.l - k.kappa * low);
-    k.extension_hardness = 1.0 / (1.0 + k.l - k.kappa * joined);
+    k.per_f = 1.0 / (1.0 + k.l - k.kappa * low);
+    k.per_f_compression = 1.0 / (0.5 + k.l - k.kappa * low);
+    k.per_f_extension = 1.0 / (1.0 + k.l - k.kappa * joined);
 
     const double a = nu / (1.0 + nu), measure = std::sqrt(2.0 / 3.0) / k.twice_shear;
-    k.plane_strain_measure = measure * std::sqrt(1.0 + k.mu * k.mu);
+    k.s2_loss = k.l * k.per_f;
+    k.s3_gain = -low * k.per_f;
+    k.order_23 = k.mu * k.per_f;
+    k.strain_gain = measure * std::sqrt(1.0 + k.mu * k.mu) * k.per_f;
+    k.s3_gain_compression = -low * k.per_f_compression;
+    k.s3_gain_extension = -joined * k.per_f_extension;
+    k.half_kappa = 0.5 * k.kappa;
     k.strain_measure = measure * measure;
     k.trace_weight = a * (2.0 - 3.0 * a);
     detail::fill_jacobians(k);

@@ -78,7 +78,7 @@ void update(benchmark::State& state, const gault_component& component, Mix mix, 
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int64_t i = 0; i < points; ++i) { // at yield: radial stress largest, hoop smallest in compression
-        const double radial = -400e3 * (1.0 + 0.5 * unit(random)), hoop = radial / 6.79 - 0.75e3;
+        const double radial = -400e3 * (1.0 + 0.5 * unit(random)), hoop = radial / 6.79 + 0.76e3;
         const double axial = 0.4 * radial;
         stress[0][i] = radial;
         stress[1][i] = mix == edges && i % 2 ? hoop : axial;

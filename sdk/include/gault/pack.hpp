@@ -37,7 +37,7 @@ struct Pack {
     Vector v;
 
     Pack() = default;
-    GAULT_INLINE Pack(double x) : v(Vector{} + x) {} // broadcast
+    GAULT_INLINE Pack(double x) : v(x - Vector{}) {} // broadcast; x - 0 is x, which a compiler knows
     GAULT_INLINE explicit Pack(Vector x) : v(x) {}
 
     static GAULT_INLINE Pack load(const double* aligned) {
