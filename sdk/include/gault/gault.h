@@ -281,7 +281,7 @@ typedef struct gault_boundary_api { /* [grows] at least one of the two functions
 /* ---- kind: program ------------------------------------------------------------------------------------
  * Reads measures, writes controls, remembers through host-owned memory, emits rows, names its next event. Called once
  * before the first step (index 0, dt 0) and at the end of every step, with that time's measures. When a step is
- * rejected and repeated, its memory and controls are put back. */
+ * rejected and repeated, memory and controls are put back. */
 
 typedef struct gault_step { /* [grows] */
     uint32_t size;
@@ -294,7 +294,8 @@ typedef struct gault_step { /* [grows] */
     double *memory;        /* in/out */
     double *record;        /* out: one row of the result table */
     uint32_t emit;         /* out: write the row */
-    uint32_t reserved;
+    uint32_t final;        /* in: 1 when the step cannot be repeated (explicit dynamics, whose steps are far shorter
+                              than any event is wide): RETRY is then an error */
     double next;    /* out: time of the next event, HUGE_VAL if none; a step ends exactly there */
     double suggest; /* out with GAULT_RETRY: an event was overshot; repeat at this fraction of the step */
 } gault_step;

@@ -1,0 +1,267 @@
+#include "core/scheduler/run.hpp"
+#include "core/base/log.hpp"
+#include "core/scheduler/program.hpp"
+#include "core/scheduler/progress.hpp"
+#include "core/scheduler/snapshot.hpp"
+#include "core/scheduler/verification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <thread>
+
+namespace gault::core {
+namespace {
+
+std::sig_atomic_t volatile interrupted = 0;
+
+class Interrupts { // SIGINT and SIGTERM ask for an end while this lives
+  public:
+    Interrupts() {
+        interrupted = 0;
+        for (const int s : {SIGINT, SIGTERM}) std::signal(s, [](int) { interrupted = 1; });
+    }
+    ~Interrupts() {
+        for (const int s : {SIGINT, SIGTERM}) std::signal(s, SIG_DFL);
+    }
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The state of a run, and what happens at the end of each step.
+class Run {
+  public:
+    Run(const Scene& scene, const RunOptions& options)
+        : scene_(scene), options_(options), model_(build_model(scene)),
+          threads_(threads_that_pay(point_count(), options.threads)), solver_(scene, model_, threads_), program_(scene, solver_),
+          verification_(scene, columns()), writer_(options.folder, options.replace, columns(), provenance(), point_count()) {}
+
+    Outcome go();
+
+  private:
+    std::size_t point_count() const {
+        std::size_t n = 0;
+        for (const Points& p : model_.points) n += p.count();
+        return n;
+    }
+    std::vector<ColumnInfo> columns() const;
+    Provenance provenance() const;
+    double step_length(double next);
+    void row();
+    void frames_due(bool last);
+    double measured(const std::string& name) const;
+    void write_frame();
+    void summary(const char* status, const std::string& message);
+    std::string advice() const;
+    void report() const;
+
+    const Scene& scene_;
+    const RunOptions& options_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Model model_;
+    int threads_;
+    ExplicitSolver solver_;
+    Program program_;
+    Verification verification_;
+    ResultWriter writer_;
+    std::size_t next_frame_ = 0;
+    int64_t frame_step_ = -1;
+    double stepping_ = 0.0; // s
+    nlohmann::json reference_, derived_;
+};
+
+std::vector<ColumnInfo> Run::columns() const {
+    std::vector<ColumnInfo> all{{"time", "s", "Time"}};
+    all.insert(all.end(), program_.columns().begin(), program_.columns().end());
+    all.push_back({"step", "1", "Steps so far"});
+    all.push_back({"kinetic_ratio", "1", "Kinetic energy over internal energy"});
+    all.push_back({"energy_error", "1", "Imbalance of energy over its largest part"});
+    all.push_back({"largest_velocity", "m/s", "Of the grid nodes"});
+    return all;
+}
+
+Provenance Run::provenance() const {
+    nlohmann::json plugins = nlohmann::json::array();
+    const auto add = [&](const Component* c) {
+        plugins.push_back({{"component", c->declaration->name},
+                           {"kind", kind_name(c->declaration->kind)},
+                           {"version", c->declaration->version},
+                           {"file", c->file.string()},
+                           {"sha256", sha256_of_file(c->file)}});
+    };
+    for (const MaterialUse& m : scene_.materials) add(m.model.component);
+    for (const BoundaryUse& b : scene_.boundaries) add(b.model.component);
+    add(scene_.program.component);
+    for (const auto& o : scene_.observers) add(o.model.component);
+    return {scene_.yaml,
+            {{"program", "gault " + options_.program_version},
+             {"command", options_.command_line},
+             {"threads", threads_},
+             {"instruction_set", select_kernels(model_.grid.degree(), model_.grid.axisymmetric()).isa},
+             {"scene", scene_.file.string()},
+             {"scene_sha256", sha256_of_file(scene_.file)},
+             {"plugins", plugins}}};
+}
+
+// Ends exactly at the next event, without a last crumb of a step.
+double Run::step_length(double next) {
+    const double allowed = solver_.allowed_step(), left = next - solver_.time();
+    if (left <= 0.0 || left > 2.0 * allowed) return allowed;
+    return left > allowed ? 0.5 * left : left;
+}
+
+void Run::row() {
+    const Energies energies = solver_.energies();
+    std::vector<double> values{solver_.time()};
+    values.insert(values.end(), program_.record().begin(), program_.record().end());
+    for (const double v : {static_cast<double>(solver_.steps()), energies.ratio(), energies.error(), solver_.largest_velocity()})
+        values.push_back(v);
+    writer_.row(values);
+}
+
+double Run::measured(const std::string& name) const {
+    if (name == "time") return solver_.time();
+    return program_.record()[program_.column(name).value()];
+}
+
+void Run::write_frame() {
+    if (frame_step_ == solver_.steps()) return;
+    frame_step_ = solver_.steps();
+    std::vector<FrameAttribute> attributes{{"time", "s", solver_.time()}};
+    for (std::size_t k = 0; k < program_.columns().size(); ++k)
+        attributes.push_back({program_.columns()[k].name, program_.columns()[k].unit, program_.record()[k]});
+    writer_.frame(attributes, frame_datasets(solver_.motion()));
+    summary("running", "");
+}
+
+void Run::frames_due(bool last) {
+    for (const ProfileReference& profile : scene_.profiles)
+        verification_.at(profile.measure, measured(profile.measure), solver_.motion());
+    const auto& values = scene_.frames.values;
+    bool due = last;
+    while (next_frame_ < values.size() && measured(scene_.frames.measure) >= values[next_frame_] * (1.0 - 1e-9)) {
+        due = true;
+        ++next_frame_;
+    }
+    if (due) write_frame();
+}
+
+std::string Run::advice() const {
+    if (scene_.solver.time_step_factor > 1.0)
+        return fmt::format("solver.time_step_factor is {:g}: above 1 the step exceeds the stability limit of {:.4g} s",
+                           scene_.solver.time_step_factor, solver_.stability_limit());
+    return fmt::format("try a smaller solver.time_step_factor (now {:g}) or a gentler load", scene_.solver.time_step_factor);
+}
+
+void Run::summary(const char* status, const std::string& message) {
+    const double wall = seconds_since(start_);
+    nlohmann::json s = {{"status", status},
+                        {"title", scene_.title},
+                        {"program_version", options_.program_version},
+                        {"plan", scene_.chosen},
+                        {"counts",
+                         {{"points", point_count()},
+                          {"cells", static_cast<int64_t>(model_.grid.axis(0).cells()) * model_.grid.axis(1).cells()},
+                          {"steps", solver_.steps()},
+                          {"constitutive_updates", solver_.motion().updates()},
+                          {"frames", next_frame_}}},
+                        {"time", solver_.time()},
+                        {"stable_step_s", solver_.stability_limit()},
+                        {"energy",
+                         {{"kinetic_ratio", solver_.energies().ratio()}, {"energy_error", solver_.energies().error()}}},
+                        {"wall_seconds", {{"total", wall}, {"stepping", stepping_}, {"other", wall - stepping_}}},
+                        {"threads", threads_},
+                        {"derived", derived_},
+                        {"reference", reference_},
+                        {"provenance", provenance().text}};
+    if (!message.empty()) s["message"] = message;
+    writer_.summary(s);
+}
+
+void Run::report() const {
+    log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver_.steps(), point_count(), seconds_since(start_),
+              stepping_ > 0.0 ? static_cast<double>(solver_.steps()) * static_cast<double>(point_count()) / stepping_ * 1e-6 : 0.0);
+    if (reference_.contains("curves"))
+        for (const auto& c : reference_["curves"])
+            log::info("{}: largest relative error {:.4f} % at {} = {:.4g}", c["y"].get<std::string>(),
+                      100.0 * c["largest_relative_error"].get<double>(), c["x"].get<std::string>(), c["largest_at"].get<double>());
+    if (reference_.contains("profiles"))
+        for (const auto& p : reference_["profiles"])
+            log::info("{} = {:g}: L2 error of raw sigma_r {:.4f} %, sigma_theta {:.4f} %", p["measure"].get<std::string>(),
+                      p["value"].get<double>(), 100.0 * p["sigma_r_l2"].get<double>(), 100.0 * p["sigma_theta_l2"].get<double>());
+    for (const auto& [name, results] : derived_.items())
+        for (const auto& [key, value] : results.items()) log::info("{} {}: {:.6g}", name, key, value.get<double>());
+    log::info("results in {}", writer_.folder().string());
+}
+
+Outcome Run::go() {
+    Interrupts interrupts;
+    Progress progress(point_count(), options_.quiet);
+    try {
+        Program::Answer answer = program_.advance(0.0, solver_.allowed_step());
+        if (answer.emit) row();
+        frames_due(false);
+        const auto stepping = std::chrono::steady_clock::now();
+        while (!answer.done && !interrupted) {
+            const double dt = step_length(answer.next);
+            solver_.step(dt);
+            answer = program_.advance(dt, solver_.allowed_step());
+            if (answer.emit) row();
+            frames_due(false);
+            if (progress.due(solver_.steps())) {
+                const auto& shown = program_.columns();
+                progress.show({solver_.steps(), solver_.time(), answer.next,
+                               shown.empty() ? "" : fmt::format("{} {:.4g}", shown[0].name, program_.record()[0])});
+            }
+        }
+        stepping_ = seconds_since(stepping);
+        frames_due(true);
+        if (!interrupted) {
+            reference_ = verification_.finish(writer_.rows());
+            derived_ = verification_.observe(solver_);
+        }
+        summary(interrupted ? "interrupted" : "done", "");
+        writer_.finish();
+    } catch (const RunError& error) {
+        const std::string message = fmt::format("step {}, t = {:.6g} s: {}; {}", solver_.steps(), solver_.time(), error.what(), advice());
+        summary("failed", message);
+        throw RunError(message);
+    }
+    if (interrupted) return Outcome::interrupted;
+    if (!options_.quiet) report();
+    return Outcome::done;
+}
+
+} // namespace
+
+int threads_that_pay(std::size_t points, int wanted) {
+    const int cores = std::max(1u, std::thread::hardware_concurrency());
+    const int useful = static_cast<int>(std::max<std::size_t>(1, points / 8192));
+    return wanted > 0 ? wanted : std::min(cores, useful);
+}
+
+Outcome run_scene(const Scene& scene, const RunOptions& options) { return Run(scene, options).go(); }
+
+std::vector<std::string> check_scene(const Scene& scene) {
+    Model model = build_model(scene);
+    ExplicitSolver solver(scene, model, 1);
+    Program program(scene, solver);
+    std::vector<ColumnInfo> columns{{"time", "s", ""}};
+    columns.insert(columns.end(), program.columns().begin(), program.columns().end());
+    Verification verification(scene, columns);
+    std::vector<std::string> lines = scene.chosen;
+    lines.insert(lines.end(), model.description.begin(), model.description.end());
+    for (std::size_t m = 0; m < model.materials.size(); ++m)
+        lines.push_back(fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));
+    for (std::string& line : solver.boundaries().description()) lines.push_back(std::move(line));
+    const double dt = solver.allowed_step();
+    lines.push_back(fmt::format("stable step {:.4g} s, used {:.4g} s", solver.stability_limit(), dt));
+    return lines;
+}
+
+} // namespace gault::core

@@ -1,0 +1,22 @@
+// The state of all points as results see it, in the order of their identity.
+#pragma once
+#include "core/output/results.hpp"
+#include "core/solver/motion.hpp"
+
+#include <vector>
+
+namespace gault::core {
+
+std::vector<Dataset> frame_datasets(const Motion& motion);
+
+// Plain arrays of the whole model, for observers and comparisons; tension positive, SI.
+struct PointArrays {
+    std::array<std::vector<double>, 3> position, reference;
+    std::array<std::vector<double>, 6> stress;
+    std::vector<double> volume;
+};
+PointArrays collect(const Motion& motion);
+// A scalar state by name, 0 where a material has none of that name; empty if no material has it.
+std::vector<double> collect_state(const Motion& motion, const std::string& name);
+
+} // namespace gault::core

@@ -1,0 +1,289 @@
+#include "core/solver/material.hpp"
+#include "core/base/suggest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace gault::core {
+namespace {
+
+const std::vector<std::string> field_names = {"density", "volume_ratio", "characteristic_length"}; // as HostField
+
+std::vector<gault_state> declared_states(const Instance& instance) {
+    const auto& api = instance.api<gault_material_api>();
+    if (!GAULT_HAS(&api, gault_material_api, instance_states) || !api.instance_states)
+        return {api.states, api.states + api.state_count};
+    uint32_t count = 0;
+    const gault_state* states = api.instance_states(instance.self(), &count);
+    return {states, states + count};
+}
+
+std::string bounded(const char* text) { return {text, strnlen(text, GAULT_TEXT)}; }
+
+} // namespace
+
+Material::Material(const MaterialUse& use)
+    : name_(use.name), instance_(*use.model.component, use.model.parameters), density_(use.density) {
+    const Location& where = use.model.parameters.where;
+    for (const gault_state& state : declared_states(instance_)) {
+        states_.push_back({state, components_});
+        components_ += static_cast<int>(state.shape);
+        rotates_states_ |= state.shape != GAULT_SCALAR && !finite_strain();
+    }
+    if (components_ > GAULT_MAX_STATE)
+        throw InputError(where, fmt::format("material '{}' declares {} state components; this host holds {}", name_,
+                                            components_, int(GAULT_MAX_STATE)));
+    for (const char* const* input = api().inputs; input && *input; ++input) {
+        const auto found = std::find(field_names.begin(), field_names.end(), *input);
+        if (found == field_names.end())
+            throw InputError(where, fmt::format("material '{}' asks for the field '{}', which this host does not offer{}",
+                                                name_, *input, suggestion(*input, field_names)));
+        inputs_.push_back(static_cast<HostField>(found - field_names.begin()));
+    }
+    if (inputs_.size() > GAULT_MAX_INPUT)
+        throw InputError(where, fmt::format("material '{}' asks for {} fields; this host passes {}", name_, inputs_.size(),
+                                            int(GAULT_MAX_INPUT)));
+}
+
+bool Material::wants(HostField field) const { return std::find(inputs_.begin(), inputs_.end(), field) != inputs_.end(); }
+
+Workspace::Workspace(std::size_t slots) : slots_(slots), columns_(count), zero_(slots) {}
+
+double* Workspace::column(int k) {
+    if (columns_[k].empty()) columns_[k].resize(slots_);
+    return columns_[k].data();
+}
+
+void attach_workspace(const Material& material, Workspace& workspace, BatchView& view) {
+    for (int k = 0; k < 4; ++k) view.strain[k] = workspace.column(Workspace::strain + k);
+    for (int k = 0; k < 6; ++k) view.stress_old[k] = workspace.column(Workspace::stress_old + k);
+    for (int k = 0; k < 5; ++k) view.flux[k] = workspace.column(Workspace::flux + k);
+    for (int k = 0; k < 2; ++k)
+        view.rotation[k] = material.rotates_states() ? workspace.column(Workspace::rotation + k) : nullptr;
+    for (int k = 0; k < 5; ++k) {
+        view.gradient_old[k] = material.finite_strain() ? workspace.column(Workspace::gradient_old + k) : nullptr;
+        view.gradient_new[k] = material.finite_strain() ? workspace.column(Workspace::gradient_new + k) : nullptr;
+    }
+    const bool ratio = material.wants(HostField::density) || material.wants(HostField::volume_ratio);
+    view.volume_ratio = ratio ? workspace.column(Workspace::volume_ratio) : nullptr;
+}
+
+namespace {
+
+// State components of a batch, rotated where they are tensors or vectors: x' = c x + s y, y' = c y - s x.
+void rotate_states(const Material& material, const Column* state, std::size_t first, std::size_t n, const BatchView& view,
+                   double* const* out) {
+    for (const StateInfo& info : material.states()) {
+        const double* in[6];
+        double* to[6];
+        for (int k = 0; k < static_cast<int>(info.declared.shape); ++k) {
+            in[k] = state[info.first + k].data() + first;
+            to[k] = out[info.first + k];
+        }
+        if (info.declared.shape == GAULT_SCALAR || !material.rotates_states()) {
+            for (int k = 0; k < static_cast<int>(info.declared.shape); ++k) std::memcpy(to[k], in[k], n * sizeof(double));
+            continue;
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const double c = view.rotation[0][i], s = view.rotation[1][i];
+            if (info.declared.shape == GAULT_VECTOR) {
+                to[0][i] = c * in[0][i] + s * in[1][i];
+                to[1][i] = c * in[1][i] - s * in[0][i];
+                to[2][i] = in[2][i];
+                continue;
+            }
+            const double xx = in[0][i], yy = in[1][i], xy = in[3][i], yz = in[4][i], zx = in[5][i];
+            const double turn = s * s * (yy - xx) + 2.0 * c * s * xy;
+            to[0][i] = xx + turn;
+            to[1][i] = yy - turn;
+            to[2][i] = in[2][i];
+            to[3][i] = c * s * (yy - xx) + (c * c - s * s) * xy;
+            to[4][i] = c * yz - s * zx;
+            to[5][i] = c * zx + s * yz;
+        }
+    }
+}
+
+struct Call { // a gault_points over a batch, with what it points at
+    gault_points p{};
+
+    Call(const Material& material, Points& points, std::size_t first, std::size_t n, const BatchView& view,
+         Workspace& workspace, const Moment& moment) {
+        p.size = sizeof p;
+        p.count = p.padded = static_cast<int64_t>(n);
+        p.time = moment.time;
+        p.dt = moment.dt;
+        for (int k = 0; k < 6; ++k) {
+            p.strain[k] = k < 4 ? view.strain[k] : workspace.zero();
+            p.stress_old[k] = view.stress_old[k];
+            p.stress[k] = points.columns().stress[k].data() + first;
+        }
+        for (int k = 0; k < material.state_components(); ++k) {
+            p.state_old[k] = workspace.column(Workspace::state_old + k);
+            p.state[k] = points.columns().state[k].data() + first;
+        }
+        p.suggest = 0.5;
+        if (!view.gradient_old[0]) return;
+        static constexpr int position[9] = {0, 1, -1, 2, 3, -1, -1, -1, 4}; // of F in the kernels' five columns
+        for (int k = 0; k < 9; ++k) {
+            p.F_old[k] = position[k] < 0 ? workspace.zero() : view.gradient_old[position[k]];
+            p.F_new[k] = position[k] < 0 ? workspace.zero() : view.gradient_new[position[k]];
+        }
+    }
+};
+
+gault_status call(const Material& material, gault_points& p, gault_error& error) {
+    error.parameter = -1;
+    error.point = -1;
+    error.text[0] = '\0';
+    return material.api().update(material.instance().self(), &p, &error);
+}
+
+// Repeats the update in `pieces` equal parts of the increment, each starting where the one before ended.
+gault_status update_in_pieces(const Material& material, const Call& whole, std::size_t n, int pieces, gault_error& error) {
+    Call part = whole;
+    std::vector<Column> copies;
+    copies.reserve(6 + GAULT_MAX_STATE + 6 + 18);
+    const auto copy = [&](const double* from) {
+        copies.emplace_back(n);
+        std::copy(from, from + n, copies.back().begin());
+        return copies.back().data();
+    };
+    double* stress[6];
+    double* state[GAULT_MAX_STATE];
+    for (int k = 0; k < 6; ++k) {
+        part.p.stress_old[k] = stress[k] = copy(whole.p.stress_old[k]);
+        double* strain = copy(whole.p.strain[k]);
+        for (std::size_t i = 0; i < n; ++i) strain[i] /= pieces;
+        part.p.strain[k] = strain;
+    }
+    for (int k = 0; k < material.state_components(); ++k) part.p.state_old[k] = state[k] = copy(whole.p.state_old[k]);
+    double *from[9] = {}, *to[9] = {};
+    for (int k = 0; k < 9 && whole.p.F_old[0]; ++k) {
+        part.p.F_old[k] = from[k] = copy(whole.p.F_old[k]);
+        part.p.F_new[k] = to[k] = copy(whole.p.F_new[k]);
+    }
+    part.p.dt = whole.p.dt / pieces;
+    for (int piece = 1; piece <= pieces; ++piece) {
+        part.p.time = whole.p.time - whole.p.dt + piece * part.p.dt;
+        for (int k = 0; k < 9 && from[0]; ++k)
+            for (std::size_t i = 0; i < n; ++i) {
+                const double step = (whole.p.F_new[k][i] - whole.p.F_old[k][i]) / pieces;
+                from[k][i] = whole.p.F_old[k][i] + (piece - 1) * step;
+                to[k][i] = whole.p.F_old[k][i] + piece * step;
+            }
+        if (const gault_status status = call(material, part.p, error); status != GAULT_OK) return status;
+        for (int k = 0; k < 6; ++k) std::copy(part.p.stress[k], part.p.stress[k] + n, stress[k]);
+        for (int k = 0; k < material.state_components(); ++k) std::copy(part.p.state[k], part.p.state[k] + n, state[k]);
+    }
+    return GAULT_OK;
+}
+
+void fill_inputs(const Material& material, gault_points& p, const BatchView& view, Workspace& workspace, std::size_t n,
+                 double cell_length) {
+    for (std::size_t k = 0; k < material.inputs().size(); ++k) {
+        double* column = workspace.column(Workspace::input + static_cast<int>(k));
+        for (std::size_t i = 0; i < n; ++i) {
+            switch (material.inputs()[k]) {
+            case HostField::density: column[i] = material.density() / view.volume_ratio[i]; break;
+            case HostField::volume_ratio: column[i] = view.volume_ratio[i]; break;
+            case HostField::characteristic_length: column[i] = cell_length; break;
+            }
+        }
+        p.input[k] = column;
+    }
+}
+
+} // namespace
+
+UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch, const BatchView& view,
+                           Workspace& workspace, const Moment& moment, double cell_length) {
+    const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
+    const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
+    if (n == 0) return {};
+    Call whole(material, points, first, n, view, workspace, moment);
+    double* old[GAULT_MAX_STATE];
+    for (int k = 0; k < material.state_components(); ++k) old[k] = workspace.column(Workspace::state_old + k);
+    rotate_states(material, points.columns().state.data(), first, n, view, old);
+    fill_inputs(material, whole.p, view, workspace, n, cell_length);
+
+    gault_error error;
+    gault_status status = call(material, whole.p, error);
+    const double fraction = std::clamp(whole.p.suggest, 1.0 / 1024.0, 0.5);
+    for (int pieces = static_cast<int>(std::ceil(1.0 / fraction)); status == GAULT_RETRY && pieces <= 1024; pieces *= 2)
+        status = update_in_pieces(material, whole, n, pieces, error);
+    if (status == GAULT_OK) return {};
+    const std::size_t slot = first + static_cast<std::size_t>(std::clamp<int64_t>(error.point, 0, static_cast<int64_t>(n) - 1));
+    return {status, slot, status == GAULT_RETRY ? "the step had to be divided more than 1024 times" : bounded(error.text)};
+}
+
+namespace {
+
+// Calls the model on every batch with a zero increment and the present stress; `prepare` adds outputs.
+template <class Prepare, class Function>
+void call_at_rest(const Material& material, Points& points, Prepare prepare, Function function) {
+    std::size_t most = 0;
+    for (const Batch& batch : points.layout().batches) most = std::max<std::size_t>(most, batch.pages * page_slots);
+    Workspace workspace(most);
+    BatchView view{};
+    attach_workspace(material, workspace, view);
+    std::vector<Column> spare(6 + material.state_components(), Column(most));
+    for (const Batch& batch : points.layout().batches) {
+        const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
+        const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
+        if (n == 0) continue;
+        PointColumns& columns = points.columns();
+        for (int k = 0; k < 4; ++k) std::fill_n(view.strain[k], n, 0.0);
+        for (int k = 0; k < 6; ++k) std::copy_n(columns.stress[k].data() + first, n, view.stress_old[k]);
+        if (view.volume_ratio) std::fill_n(view.volume_ratio, n, 1.0);
+        for (int k = 0; k < 5 && view.gradient_old[0]; ++k) {
+            std::fill_n(view.gradient_old[k], n, k == 0 || k > 2 ? 1.0 : 0.0);
+            std::fill_n(view.gradient_new[k], n, k == 0 || k > 2 ? 1.0 : 0.0);
+        }
+        Call whole(material, points, first, n, view, workspace, {0.0, 0.0});
+        for (int k = 0; k < material.state_components(); ++k)
+            std::copy_n(columns.state[k].data() + first, n, workspace.column(Workspace::state_old + k));
+        fill_inputs(material, whole.p, view, workspace, n, 1.0);
+        prepare(whole.p, first, n, spare);
+        gault_error error{-1, 0, -1, ""};
+        if (function(whole.p, error) != GAULT_OK)
+            throw RunError(fmt::format("material '{}': {}", material.name(), bounded(error.text)));
+    }
+}
+
+} // namespace
+
+void evaluate_moduli(const Material& material, Points& points, Column& modulus, Column& shear) {
+    modulus.resize(points.slots());
+    shear.resize(points.slots());
+    call_at_rest(
+        material, points,
+        [&](gault_points& p, std::size_t first, std::size_t n, std::vector<Column>& spare) {
+            p.modulus = modulus.data() + first;
+            p.shear_modulus = shear.data() + first;
+            for (int k = 0; k < 6; ++k) p.stress[k] = spare[k].data();
+            for (int k = 0; k < material.state_components(); ++k) p.state[k] = spare[6 + k].data();
+            (void)n;
+        },
+        [&](gault_points& p, gault_error& error) {
+            return material.api().update(material.instance().self(), &p, &error);
+        });
+}
+
+void start_material(const Material& material, Points& points) {
+    for (const StateInfo& info : material.states())
+        for (int k = 0; k < static_cast<int>(info.declared.shape); ++k)
+            std::fill(points.columns().state[info.first + k].begin(), points.columns().state[info.first + k].end(),
+                      info.declared.initial);
+    if (!material.api().start) return;
+    call_at_rest(
+        material, points, [](gault_points&, std::size_t, std::size_t, std::vector<Column>&) {},
+        [&](gault_points& p, gault_error& error) {
+            return material.api().start(material.instance().self(), &p, &error);
+        });
+}
+
+} // namespace gault::core

@@ -1,0 +1,89 @@
+// A created soil model and how the host calls it on a batch of points.
+#pragma once
+#include "core/base/aligned.hpp"
+#include "core/config/scene.hpp"
+#include "core/points/points.hpp"
+#include "core/registry/instance.hpp"
+#include "core/transfer/kernels.hpp"
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gault::core {
+
+enum class HostField { density, volume_ratio, characteristic_length };
+
+struct StateInfo {
+    gault_state declared;
+    int first; // its first component
+};
+
+class Material {
+  public:
+    explicit Material(const MaterialUse& use); // InputError: a declaration that the host cannot serve
+
+    const std::string& name() const { return name_; }
+    double density() const { return density_; } // initial, kg/m^3
+    const Instance& instance() const { return instance_; }
+    const gault_material_api& api() const { return instance_.api<gault_material_api>(); }
+    const std::vector<StateInfo>& states() const { return states_; }
+    int state_components() const { return components_; }
+    const std::vector<HostField>& inputs() const { return inputs_; }
+    bool wants(HostField field) const;
+    bool finite_strain() const { return api().flags & GAULT_FINITE_STRAIN; }
+    bool one_at_a_time() const { return api().flags & GAULT_ONE_AT_A_TIME; }
+    bool rotates_states() const { return rotates_states_; }
+
+  private:
+    std::string name_;
+    Instance instance_;
+    double density_;
+    std::vector<StateInfo> states_;
+    std::vector<HostField> inputs_;
+    int components_ = 0;
+    bool rotates_states_ = false;
+};
+
+// What one thread needs beside the points for one batch at a time.
+class Workspace {
+  public:
+    explicit Workspace(std::size_t slots); // of the largest batch
+
+    double* column(int k); // the k-th scratch column, made when first asked for
+    enum Use { strain = 0, stress_old = 4, rotation = 10, flux = 12, gradient_old = 17, gradient_new = 22,
+               volume_ratio = 27, input = 28, probe = 44, state_old = 50, count = state_old + GAULT_MAX_STATE };
+    const double* zero() const { return zero_.data(); }
+
+  private:
+    std::size_t slots_;
+    std::vector<Column> columns_;
+    Column zero_;
+};
+
+struct Moment { // of a constitutive update
+    double time, dt;
+};
+
+struct UpdateFailure {
+    gault_status status = GAULT_OK;
+    std::size_t slot = 0;
+    std::string text;
+};
+
+// Points the kernel's workspace arrays of `view` at what this material needs.
+void attach_workspace(const Material& material, Workspace& workspace, BatchView& view);
+
+// Rotates tensor and vector states, fills the inputs, and calls the model; on RETRY the increment is divided. New stress
+// and states are in the points' columns afterwards.
+UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch, const BatchView& view,
+                           Workspace& workspace, const Moment& moment, double cell_length);
+
+// The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` have points.slots() entries.
+void evaluate_moduli(const Material& material, Points& points, Column& modulus, Column& shear);
+
+// Lets the model set its states from the initial stress. RunError when it is not admissible.
+void start_material(const Material& material, Points& points);
+
+} // namespace gault::core

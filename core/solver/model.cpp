@@ -1,0 +1,156 @@
+#include "core/solver/model.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace gault::core {
+namespace {
+
+struct Rule { // of integration on [0, 1]
+    std::vector<double> at, weight;
+};
+
+// Gauss-Legendre by Newton's method on the Legendre polynomial, n <= 6.
+Rule gauss_rule(int n) {
+    Rule rule;
+    for (int i = 0; i < n; ++i) {
+        double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
+        for (int iteration = 0; iteration < 50; ++iteration) {
+            double p = 1.0, before = 0.0;
+            for (int k = 0; k < n; ++k) {
+                const double next = ((2.0 * k + 1.0) * x * p - k * before) / (k + 1.0);
+                before = p;
+                p = next;
+            }
+            slope = n * (x * p - before) / (x * x - 1.0);
+            x -= p / slope;
+        }
+        rule.at.push_back(0.5 * (1.0 + x));
+        rule.weight.push_back(1.0 / ((1.0 - x * x) * slope * slope));
+    }
+    return rule;
+}
+
+Rule uniform_rule(int n) {
+    Rule rule;
+    for (int i = 0; i < n; ++i) {
+        rule.at.push_back((i + 0.5) / n);
+        rule.weight.push_back(1.0 / n);
+    }
+    return rule;
+}
+
+std::vector<int> assign_materials(const Scene& scene, const Grid& grid, std::vector<std::string>& description) {
+    const int columns = grid.axis(0).cells(), rows = grid.axis(1).cells();
+    std::vector<int> material(static_cast<std::size_t>(columns) * rows, scene.base_material);
+    for (const Region& region : scene.regions) {
+        int cells = 0;
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < columns; ++i) {
+                const double x = grid.axis(0).origin()[i] + 0.5 * grid.axis(0).length()[i];
+                const double y = grid.axis(1).origin()[j] + 0.5 * grid.axis(1).length()[j];
+                if (x < region.lower[0] || x > region.upper[0] || y < region.lower[1] || y > region.upper[1]) continue;
+                material[static_cast<std::size_t>(j) * columns + i] = region.material;
+                ++cells;
+            }
+        if (cells == 0) throw InputError(region.where, fmt::format("region '{}' holds no cell centre", region.name));
+        description.push_back(fmt::format("region {}: {} cells of '{}'", region.name, cells, scene.materials[region.material].name));
+    }
+    return material;
+}
+
+struct Seeds { // points of one material before they are laid out
+    PointColumns columns;
+    std::vector<int32_t> cell;
+    std::vector<uint32_t> identity;
+};
+
+} // namespace
+
+double Model::vertical_stress(const Scene& scene, int column, double y) const {
+    const InitialStress& initial = scene.initial_stress;
+    if (!initial.gravity) return initial.vertical;
+    const double g = -scene.gravity[1];
+    const Axis& axis = grid.axis(1);
+    const auto density = [&](int row) {
+        return materials[material_of_cell[static_cast<std::size_t>(row) * grid.axis(0).cells() + column]].density();
+    };
+    double stress = initial.vertical + density(axis.cells() - 1) * g * initial.depth;
+    for (int row = axis.cells() - 1; row >= 0; --row) {
+        const double low = axis.knots()[row], high = axis.knots()[row + 1];
+        if (y >= high) break;
+        stress += density(row) * g * (high - std::max(low, y));
+    }
+    return stress;
+}
+
+SoilBehind Model::behind(const Scene& scene, const std::array<double, 2>& at) {
+    const int column = grid.axis(0).cell_of(at[0]), row = grid.axis(1).cell_of(at[1]);
+    const int m = material_of_cell[static_cast<std::size_t>(row) * grid.axis(0).cells() + column];
+    Column modulus, shear;
+    evaluate_moduli(materials[m], points[m], modulus, shear);
+    const double vertical = -vertical_stress(scene, column, at[1]), rho = materials[m].density();
+    return {std::sqrt(rho * modulus[0]), std::sqrt(rho * shear[0]), shear[0], {scene.initial_stress.k0 * vertical, vertical, 0.0}};
+}
+
+Model build_model(const Scene& scene) {
+    const int degree = scene.basis == Basis::quadratic ? 2 : 1;
+    const auto axis = [&](int k) {
+        return Axis(Axis::graded(scene.geometry.lower[k], scene.geometry.upper[k], scene.axes[k].cells, scene.axes[k].ratio), degree);
+    };
+    Model model{Grid(axis(0), axis(1), scene.symmetry == Symmetry::axisymmetric), {}, {}, {}, {}};
+    const Grid& grid = model.grid;
+    model.material_of_cell = assign_materials(scene, grid, model.description);
+    for (const MaterialUse& use : scene.materials) model.materials.emplace_back(use);
+
+    const int side = static_cast<int>(std::lround(std::sqrt(scene.points_per_cell)));
+    const Rule rule = scene.placement == Placement::gauss ? gauss_rule(side) : uniform_rule(side);
+    const bool updated = scene.frame == Frame::updated;
+    std::vector<Seeds> seeds(scene.materials.size());
+    uint32_t identity = 0;
+    const int columns = grid.axis(0).cells();
+    for (int row = 0; row < grid.axis(1).cells(); ++row)
+        for (int column = 0; column < columns; ++column) {
+            const int cell = row * columns + column, m = model.material_of_cell[cell];
+            const double hx = grid.axis(0).length()[column], hy = grid.axis(1).length()[row];
+            Seeds& s = seeds[m];
+            for (int b = 0; b < side; ++b)
+                for (int a = 0; a < side; ++a) {
+                    const double x = grid.axis(0).origin()[column] + rule.at[a] * hx;
+                    const double y = grid.axis(1).origin()[row] + rule.at[b] * hy;
+                    const double area = hx * hy * rule.weight[a] * rule.weight[b];
+                    const double per_radius = grid.axisymmetric() ? 2.0 * std::numbers::pi * area : area;
+                    const double volume = grid.axisymmetric() ? per_radius * x : area;
+                    const double vertical = -model.vertical_stress(scene, column, y);
+                    s.columns.place[0].push_back(updated ? x : rule.at[a]);
+                    s.columns.place[1].push_back(updated ? y : rule.at[b]);
+                    s.columns.measure.push_back(updated ? volume : per_radius);
+                    for (int k = 0; k < 6; ++k)
+                        s.columns.stress[k].push_back(k == 1 ? vertical : k < 3 ? scene.initial_stress.k0 * vertical : 0.0);
+                    if (updated) {
+                        s.columns.reference[0].push_back(x);
+                        s.columns.reference[1].push_back(y);
+                        s.columns.mass.push_back(model.materials[m].density() * volume);
+                    }
+                    s.cell.push_back(cell);
+                    s.identity.push_back(identity++);
+                }
+        }
+    for (std::size_t m = 0; m < seeds.size(); ++m) {
+        Seeds& s = seeds[m];
+        const std::size_t n = s.cell.size();
+        s.columns.state.assign(model.materials[m].state_components(), Column(n));
+        if (updated)
+            for (Column& c : s.columns.velocity) c.resize(n);
+        if (updated && model.materials[m].finite_strain())
+            for (int k = 0; k < 5; ++k) s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
+        model.points.emplace_back(std::move(s.columns), s.cell, std::move(s.identity),
+                                  LayoutRequest{columns, grid.axis(1).cells(), degree, updated});
+        start_material(model.materials[m], model.points[m]);
+    }
+    return model;
+}
+
+} // namespace gault::core

@@ -1,0 +1,28 @@
+// Grid, materials and points of a scene, at rest in the initial stress.
+#pragma once
+#include "core/config/scene.hpp"
+#include "core/grid/grid.hpp"
+#include "core/points/points.hpp"
+#include "core/solver/boundaries.hpp"
+#include "core/solver/material.hpp"
+
+#include <array>
+#include <vector>
+
+namespace gault::core {
+
+struct Model {
+    Grid grid;
+    std::vector<Material> materials;
+    std::vector<Points> points;           // one a material
+    std::vector<int> material_of_cell;    // row * columns + column
+    std::vector<std::string> description; // what every region took hold of, a line each
+
+    // Initial vertical stress (axis y) and its ratio to the others, compression positive, Pa.
+    double vertical_stress(const Scene& scene, int column, double y) const;
+    SoilBehind behind(const Scene& scene, const std::array<double, 2>& at); // of the soil at a reference position
+};
+
+Model build_model(const Scene& scene);
+
+} // namespace gault::core

@@ -1,0 +1,152 @@
+#include "core/solver/motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gault::core {
+
+Motion::Motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads)
+    : grid_(grid), materials_(materials), points_(points),
+      kernels_(select_kernels(grid.degree(), grid.axisymmetric())), threads_(threads) {
+    plan();
+}
+
+void Motion::plan() {
+    tasks_.clear();
+    tasks_of_row_.assign(grid_.axis(1).cells(), {});
+    versions_.clear();
+    std::size_t patch = 0, most = 0;
+    for (int m = 0; m < static_cast<int>(points_.size()); ++m) {
+        const auto& batches = points_[m].layout().batches;
+        versions_.push_back(points_[m].version());
+        for (int b = 0; b < static_cast<int>(batches.size()); ++b) {
+            tasks_of_row_[batches[b].cell_row].push_back(static_cast<int>(tasks_.size()));
+            tasks_.push_back({m, b, patch});
+            patch += round_up(3 * static_cast<std::size_t>(batches[b].patch_row) * (grid_.degree() + 1), 8);
+            most = std::max<std::size_t>(most, static_cast<std::size_t>(batches[b].capacity) * page_slots);
+        }
+    }
+    patches_.assign(patch, 0.0);
+    outcomes_.assign(tasks_.size(), {});
+    workspaces_.clear();
+    for (int t = 0; t < threads_; ++t) workspaces_.emplace_back(most);
+}
+
+bool Motion::plan_is_stale() const {
+    for (std::size_t m = 0; m < points_.size(); ++m)
+        if (points_[m].version() != versions_[m]) return true;
+    return false;
+}
+
+GridView Motion::grid_view() const {
+    const auto axis = [](const Axis& a) {
+        return AxisView{a.origin().data(), a.length().data(), a.inverse_length().data(), a.left().data(), a.right().data()};
+    };
+    return {axis(grid_.axis(0)), axis(grid_.axis(1)), grid_.layout().row};
+}
+
+BatchView Motion::view(const Task& task) {
+    Points& points = points_[task.material];
+    const Batch& batch = points.layout().batches[task.batch];
+    PointColumns& columns = points.columns();
+    const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
+    const auto at = [first](Column& column) { return column.empty() ? nullptr : column.data() + first; };
+    BatchView v{};
+    v.pages = batch.pages;
+    v.column = points.layout().page_column.data() + batch.first_page;
+    v.cell_row = batch.cell_row;
+    v.first_column = batch.first_column;
+    v.node = static_cast<std::ptrdiff_t>(grid_.layout().index(0, batch.cell_row));
+    v.patch_row = batch.patch_row;
+    v.patch = patches_.data() + task.patch;
+    for (int k = 0; k < 2; ++k) {
+        v.place[k] = at(columns.place[k]);
+        v.velocity[k] = at(columns.velocity[k]);
+    }
+    v.measure = at(columns.measure);
+    v.mass = at(columns.mass);
+    for (int k = 0; k < 6; ++k) v.stress[k] = at(columns.stress[k]);
+    for (int k = 0; k < 5; ++k) v.deformation[k] = at(columns.deformation[k]);
+    return v;
+}
+
+void Motion::clear_patch(const Task& task, int components) {
+    const Batch& batch = points_[task.material].layout().batches[task.batch];
+    std::fill_n(patches_.data() + task.patch, static_cast<std::size_t>(components) * batch.patch_row * (grid_.degree() + 1), 0.0);
+}
+
+void Motion::reduce(const std::vector<Column*>& fields) {
+    const NodeLayout& layout = grid_.layout();
+    const int degree = grid_.degree(), cell_rows = grid_.axis(1).cells();
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
+    for (int j = 0; j < layout.ny; ++j) {
+        for (Column* field : fields) std::fill_n(field->data() + layout.row_begin(j), layout.row, 0.0);
+        for (int row = std::max(0, j - degree); row <= std::min(j, cell_rows - 1); ++row)
+            for (const int t : tasks_of_row_[row]) {
+                const Batch& batch = points_[tasks_[t].material].layout().batches[tasks_[t].batch];
+                const double* patch = patches_.data() + tasks_[t].patch + static_cast<std::ptrdiff_t>(j - row) * batch.patch_row;
+                for (Column* field : fields) {
+                    double* to = field->data() + layout.index(batch.first_column, j);
+                    for (int i = 0; i < batch.patch_row; ++i) to[i] += patch[i];
+                    patch += static_cast<std::ptrdiff_t>(batch.patch_row) * (degree + 1);
+                }
+            }
+    }
+}
+
+double Motion::probe_step(const VectorField& v) const {
+    double fastest = 0.0, shortest = grid_.axis(0).length()[0];
+    for (int k = 0; k < 2; ++k) {
+        for (const double x : v.c[k]) fastest = std::max(fastest, std::abs(x));
+        for (const double h : grid_.axis(k).length()) shortest = std::min(shortest, h);
+    }
+    return 1e-7 * shortest / fastest;
+}
+
+void Motion::elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view,
+                           Workspace& workspace) {
+    const std::size_t first = static_cast<std::size_t>(points_[task.material].layout().batches[task.batch].first_page) * page_slots;
+    double* stress[4];
+    for (int k = 0; k < 4; ++k) view.stress[k] = stress[k] = workspace.column(Workspace::probe + k);
+    for (int i = 0; i < view.pages * page_slots; ++i) {
+        const double shear = moduli[1][first + i], lame = moduli[0][first + i] - 2.0 * shear;
+        const double volumetric = lame * (view.strain[0][i] + view.strain[1][i] + view.strain[2][i]);
+        for (int k = 0; k < 4; ++k) stress[k][i] = ((k < 3 ? volumetric : 0.0) + 2.0 * shear * view.strain[k][i]) / dt;
+    }
+}
+
+void Motion::settle(const std::vector<Outcome>& outcomes) {
+    largest_strain_ = 0.0;
+    for (std::size_t t = 0; t < outcomes.size(); ++t) {
+        const auto& [strain, failure] = outcomes[t];
+        const Task& task = tasks_[t];
+        const Batch& batch = points_[task.material].layout().batches[task.batch];
+        updates_ += points_[task.material].layout().batches[task.batch].pages * page_slots;
+        if (strain.bad >= 0) {
+            const std::size_t slot = static_cast<std::size_t>(batch.first_page) * page_slots + static_cast<std::size_t>(strain.bad);
+            throw RunError(fmt::format("the run became unstable: {} would be strained by more than {} in one step, or turned "
+                                       "inside out",
+                                       where(task.material, slot), strain_limit));
+        }
+        if (failure.status != GAULT_OK)
+            throw RunError(fmt::format("{}: {}", where(task.material, failure.slot),
+                                       failure.text.empty() ? "the model gave no result and no reason" : failure.text));
+        largest_strain_ = std::max(largest_strain_, strain.largest);
+    }
+}
+
+std::size_t Motion::point_count() const {
+    std::size_t n = 0;
+    for (const Points& p : points_) n += p.count();
+    return n;
+}
+
+std::string Motion::where(int material, std::size_t slot) const {
+    const PointRecord at = record(material, slot);
+    return fmt::format("point {} of '{}' at ({:.6g}, {:.6g}) m", points_[material].identity(slot),
+                       materials_[material].name(), at.position[0], at.position[1]);
+}
+
+} // namespace gault::core

@@ -1,0 +1,109 @@
+// What differs between the two descriptions of motion; everything else of the solver is shared.
+//   total    weights at the reference positions, computed from fixed cell coordinates; the walls are on the grid for ever
+//   updated  points move through the grid (Eq. 16), which is stretched so that its rim stays on the walls
+#pragma once
+#include "core/grid/grid.hpp"
+#include "core/points/points.hpp"
+#include "core/solver/material.hpp"
+#include "core/transfer/kernels.hpp"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace gault::core {
+
+struct PhaseClock { // seconds spent, by phase
+    double strain = 0, material = 0, force = 0, velocity = 0, reduce = 0, grid = 0, sort = 0;
+    bool on = false;
+};
+
+struct PointRecord { // of a point, for results
+    std::array<double, 2> position, reference, velocity;
+    double volume;
+};
+
+class Motion {
+  public:
+    Motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads);
+    virtual ~Motion() = default;
+
+    // Node positions (control points), m.
+    virtual double node_position(int i, int j, int component) const = 0;
+    // Nodal masses now, without mass scaling, kg.
+    virtual const Column& mass() const = 0;
+    // Internal forces on the nodes at the present state, N.
+    virtual void forces(VectorField& internal) = 0;
+
+    // Stress update last: point velocities take `a` over dt (Eq. 10); the grid velocity is mapped from them anew (Eq. 6).
+    virtual void accelerate(const VectorField& a, double dt, VectorField& velocity) = 0;
+    // Strains over dt from the grid velocity, new stresses, and (stress update last) new positions. Throws RunError.
+    virtual void deform(const VectorField& velocity, const Moment& moment) = 0;
+    // Stress update first: the grid velocity at the start of the step, then point velocities and positions at its end.
+    virtual bool stress_first() const { return false; }
+    virtual void map_velocity(VectorField&) {}
+    virtual void advance(const VectorField&, const VectorField&, double) {}
+
+    // For the stability limit: K v with the moduli given (per material, per slot), and the product of the consistent mass
+    // with a nodal field, both at the present state.
+    virtual void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) = 0;
+    virtual void consistent_mass(const VectorField& w, VectorField& out) = 0;
+
+    virtual double kinetic_energy() const = 0; // J, of the points, with mass scaling left out
+    virtual PointRecord record(int material, std::size_t slot) const = 0;
+
+    double largest_strain() const { return largest_strain_; } // component of the last step
+    int64_t updates() const { return updates_; }              // constitutive updates so far
+    PhaseClock& clock() { return clock_; }
+    const Grid& grid() const { return grid_; }
+    const std::vector<Material>& materials() const { return materials_; }
+    const std::vector<Points>& points() const { return points_; }
+    std::size_t point_count() const;
+    std::string where(int material, std::size_t slot) const; // "point 17 of 'sand' at (0.02, 0.1) m"
+
+  protected:
+    struct Task { // one batch
+        int material, batch;
+        std::size_t patch; // offset into patches_, for three components
+    };
+    void plan();               // after a change of layout
+    bool plan_is_stale() const;
+    GridView grid_view() const;
+    BatchView view(const Task& task); // without workspace
+    // Sums the patches into nodal fields, in a fixed order.
+    void reduce(const std::vector<Column*>& fields);
+    void clear_patch(const Task& task, int components);
+    // Points the view's stress at workspace columns with the elastic stress rate of the strains in the view.
+    void elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view, Workspace& workspace);
+    double probe_step(const VectorField& v) const; // short enough for strains to be linear in v
+
+    struct Outcome { // of a batch's strain and stress update
+        StrainReport strain;
+        UpdateFailure failure;
+    };
+    void settle(const std::vector<Outcome>& outcomes); // the first failure, or the largest strain
+
+    static constexpr double strain_limit = 0.1; // of one step: beyond it the run is lost
+
+    Grid& grid_;
+    std::vector<Material>& materials_;
+    std::vector<Points>& points_;
+    const Kernels& kernels_;
+    int threads_;
+    std::vector<Task> tasks_;
+    std::vector<std::vector<int>> tasks_of_row_; // by row of cells
+    std::vector<int> versions_;                  // of the layouts that the plan is made for
+    Column patches_;
+    std::vector<Workspace> workspaces_; // one a thread
+    std::vector<Outcome> outcomes_;
+    PhaseClock clock_;
+    double largest_strain_ = 0.0;
+    int64_t updates_ = 0;
+};
+
+std::unique_ptr<Motion> make_total_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points,
+                                        int threads);
+std::unique_ptr<Motion> make_updated_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points,
+                                          int threads, bool stress_first);
+
+} // namespace gault::core

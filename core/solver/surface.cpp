@@ -1,0 +1,107 @@
+#include "core/solver/surface.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace gault::core {
+namespace {
+
+// Gauss points on [0, 1]: exact for the products of quadratic functions, their slopes and r.
+constexpr std::array<std::array<double, 2>, 3> gauss = {
+    {{0.1127016653792583, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.8872983346207417, 5.0 / 18.0}}};
+
+} // namespace
+
+Surface::Surface(const Motion& motion, int side) : side_(side), axisymmetric_(motion.grid().axisymmetric()) {
+    const Grid& grid = motion.grid();
+    const Axis& along = grid.axis(1 - normal_axis(side));
+    for (int k = 0; k < grid.side_nodes(side); ++k) {
+        const auto [i, j] = grid.side_node(side, k);
+        nodes_.push_back(grid.layout().index(i, j));
+    }
+    for (int cell = 0; cell < along.cells(); ++cell)
+        for (const auto& [xi, weight] : gauss) {
+            Facet f;
+            const Axis::Weights w = along.weights(cell, xi);
+            f.functions = along.degree() + 1;
+            f.weight = weight;
+            for (int a = 0; a < f.functions; ++a) {
+                f.ij[a] = grid.side_node(side, cell + a);
+                f.node[a] = grid.layout().index(f.ij[a][0], f.ij[a][1]);
+                f.value[a] = w.value[a];
+                f.slope[a] = w.slope[a] * along.length()[cell];
+            }
+            facets_.push_back(f);
+        }
+    at_.resize(facets_.size());
+    refresh(motion);
+    for (const Now& now : at_) reference_.push_back(now.position);
+}
+
+void Surface::refresh(const Motion& motion) {
+    for (std::size_t q = 0; q < facets_.size(); ++q) {
+        const Facet& f = facets_[q];
+        std::array<double, 2> x{}, tangent{};
+        for (int a = 0; a < f.functions; ++a)
+            for (int k = 0; k < 2; ++k) {
+                const double at = motion.node_position(f.ij[a][0], f.ij[a][1], k);
+                x[k] += f.value[a] * at;
+                tangent[k] += f.slope[a] * at;
+            }
+        // The outward normal is the tangent turned by a quarter: left of +y on low x, right of it on high x.
+        const double turn = side_ == low_x || side_ == high_y ? 1.0 : -1.0;
+        const double ring = f.weight * (axisymmetric_ ? 2.0 * std::numbers::pi * x[0] : 1.0);
+        at_[q] = {x, {-turn * tangent[1] * ring, turn * tangent[0] * ring}, f.weight * std::hypot(tangent[0], tangent[1])};
+    }
+}
+
+std::array<double, 2> Surface::interpolate(const VectorField& field, std::size_t q) const {
+    const Facet& f = facets_[q];
+    std::array<double, 2> v{};
+    for (int a = 0; a < f.functions; ++a)
+        for (int k = 0; k < 2; ++k) v[k] += f.value[a] * field.c[k][f.node[a]];
+    return v;
+}
+
+void Surface::add_force(VectorField& field, std::size_t q, const std::array<double, 2>& force) const {
+    const Facet& f = facets_[q];
+    for (int a = 0; a < f.functions; ++a)
+        for (int k = 0; k < 2; ++k) field.c[k][f.node[a]] += f.value[a] * force[k];
+}
+
+double Surface::mean_radius() const {
+    double total = 0.0, length = 0.0;
+    for (const Now& now : at_) total += now.position[0] * now.length, length += now.length;
+    return total / length;
+}
+
+double Surface::total_area() const {
+    double total = 0.0;
+    for (const Now& now : at_) total += std::hypot(now.area[0], now.area[1]);
+    return total;
+}
+
+double Surface::mean_displacement() const {
+    const int axis = normal_axis(side_);
+    double total = 0.0, length = 0.0;
+    for (std::size_t q = 0; q < at_.size(); ++q) {
+        total += -outward(side_) * (at_[q].position[axis] - reference_[q][axis]) * at_[q].length;
+        length += at_[q].length;
+    }
+    return total / length;
+}
+
+double Surface::enclosed_volume() const { // of the solid of revolution: half the flux of (r, 0) through the surface
+    double total = 0.0;
+    for (const Now& now : at_) total += 0.5 * now.position[0] * std::abs(now.area[0]);
+    return total;
+}
+
+double Surface::normal_force(const VectorField& force) const {
+    const int axis = normal_axis(side_);
+    double total = 0.0;
+    for (const std::size_t node : nodes_) total -= outward(side_) * force.c[axis][node];
+    return total;
+}
+
+} // namespace gault::core

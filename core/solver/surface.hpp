@@ -1,0 +1,57 @@
+// A side of the model: quadrature points on it, where they are now, and what can be measured there.
+#pragma once
+#include "core/solver/motion.hpp"
+
+#include <array>
+#include <vector>
+
+namespace gault::core {
+
+class Surface {
+  public:
+    Surface(const Motion& motion, int side);
+
+    int side() const { return side_; }
+    std::size_t size() const { return facets_.size(); } // quadrature points
+
+    void refresh(const Motion& motion); // positions, area vectors and displacements now
+
+    // Of quadrature point q. The area vector points out of the soil, m^2 (whole ring, or 1 m of plane strain).
+    std::array<double, 2> position(std::size_t q) const { return {at_[q].position[0], at_[q].position[1]}; }
+    std::array<double, 2> reference(std::size_t q) const { return {reference_[q][0], reference_[q][1]}; }
+    std::array<double, 2> area(std::size_t q) const { return {at_[q].area[0], at_[q].area[1]}; }
+    // Nodal interpolation at q.
+    std::array<double, 2> interpolate(const VectorField& field, std::size_t q) const;
+    // field += N^T force, the consistent nodal force.
+    void add_force(VectorField& field, std::size_t q, const std::array<double, 2>& force) const;
+
+    // Measures, from the last refresh.
+    double mean_radius() const;       // m, over the length
+    double total_area() const;        // m^2
+    double mean_displacement() const; // m, into the soil
+    double enclosed_volume() const;   // m^3, between the axis and the surface
+    // Sum over the surface's nodes of -n . force: positive pushes into the soil, N.
+    double normal_force(const VectorField& force) const;
+
+  private:
+    struct Facet {
+        std::array<std::size_t, 3> node{}; // indices into a nodal field
+        std::array<std::array<int, 2>, 3> ij{};
+        std::array<double, 3> value{}, slope{}; // N and dN/dxi, xi in [0, 1] along the cell
+        int functions = 0;
+        double weight = 0.0;
+    };
+    struct Now {
+        std::array<double, 2> position, area;
+        double length;
+    };
+
+    int side_;
+    bool axisymmetric_;
+    std::vector<Facet> facets_;
+    std::vector<Now> at_;
+    std::vector<std::array<double, 2>> reference_;
+    std::vector<std::size_t> nodes_;
+};
+
+} // namespace gault::core

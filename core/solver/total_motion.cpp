@@ -1,0 +1,218 @@
+#include "core/solver/motion.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <omp.h>
+
+namespace gault::core {
+namespace {
+
+// With constant weights the points' velocities are a nodal field w, v_p = sum N w: Eq. 10 becomes w += a dt, and Eq. 5-6
+// become v = M^-1 C w with the consistent mass C, once a node instead of once a point. Both orders of the stress update
+// (first or last) are then the same sequence.
+class TotalMotion final : public Motion {
+  public:
+    TotalMotion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads)
+        : Motion(grid, materials, points, threads), displacement_(grid.layout()), flip_(grid.layout()),
+          mass_(grid.layout().size), zero_(grid.layout()), first_forces_(true) {
+        assemble_mass();
+    }
+
+    double node_position(int i, int j, int component) const override {
+        return grid_.axis(component).node(component ? j : i) + displacement_.c[component][grid_.layout().index(i, j)];
+    }
+    const Column& mass() const override { return mass_; }
+
+    void forces(VectorField& internal) override {
+        if (first_forces_) sweep(zero_, {0.0, 0.0}, false);
+        first_forces_ = false;
+        reduce({&internal.c[0], &internal.c[1]});
+    }
+
+    void accelerate(const VectorField& a, double dt, VectorField& velocity) override {
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = 0; n < mass_.size(); ++n) flip_.c[k][n] += dt * a.c[k][n];
+        consistent_mass(flip_, velocity);
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = 0; n < mass_.size(); ++n) velocity.c[k][n] *= inverse_mass_[n];
+    }
+
+    void deform(const VectorField& velocity, const Moment& moment) override {
+        sweep(velocity, moment, true);
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = 0; n < mass_.size(); ++n) displacement_.c[k][n] += moment.dt * velocity.c[k][n];
+    }
+
+    void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) override;
+
+    void consistent_mass(const VectorField& w, VectorField& out) override {
+        const NodeLayout& layout = grid_.layout();
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
+        for (int j = 0; j < layout.ny; ++j) {
+            const std::size_t begin = layout.row_begin(j);
+            const double* coefficient[25];
+            for (std::size_t c = 0; c < stencil_.size(); ++c) coefficient[c] = stencil_[c].data() + begin;
+            for (int k = 0; k < 2; ++k)
+                kernels_.stencil(coefficient, layout.row, w.c[k].data() + begin, out.c[k].data() + begin);
+        }
+    }
+
+    double kinetic_energy() const override {
+        VectorField product(grid_.layout());
+        const_cast<TotalMotion*>(this)->consistent_mass(flip_, product);
+        double energy = 0.0;
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = 0; n < mass_.size(); ++n) energy += 0.5 * flip_.c[k][n] * product.c[k][n];
+        return energy;
+    }
+
+    PointRecord record(int material, std::size_t slot) const override;
+
+  private:
+    struct Basis2 { // the functions of a point
+        int i, j;
+        Axis::Weights x, y;
+        std::array<double, 2> reference;
+    };
+    Basis2 basis(int material, std::size_t slot) const;
+    void assemble_mass();
+    // Strains, stresses (unless only the geometry is wanted) and internal forces, batch by batch.
+    void sweep(const VectorField& velocity, const Moment& moment, bool update);
+    StrainInput strain_input(const VectorField& velocity, double dt, bool rotate) const {
+        return {{velocity.c[0].data(), velocity.c[1].data()},
+                {displacement_.c[0].data(), displacement_.c[1].data()},
+                dt,
+                strain_limit,
+                rotate};
+    }
+
+    VectorField displacement_, flip_; // of the nodes: u, and w above
+    Column mass_, inverse_mass_;
+    std::vector<Column> stencil_; // consistent mass: (2 degree + 1)^2 coefficients a node
+    VectorField zero_;
+    bool first_forces_;
+};
+
+TotalMotion::Basis2 TotalMotion::basis(int material, std::size_t slot) const {
+    const Points& points = points_[material];
+    const std::size_t page = slot / page_slots;
+    const auto& batches = points.layout().batches;
+    const auto after = std::upper_bound(batches.begin(), batches.end(), page, [](std::size_t p, const Batch& b) {
+        return p < static_cast<std::size_t>(b.first_page);
+    });
+    const int i = points.layout().page_column[page], j = std::prev(after)->cell_row;
+    const double xi = points.columns().place[0][slot], eta = points.columns().place[1][slot];
+    const Axis &x = grid_.axis(0), &y = grid_.axis(1);
+    return {i, j, x.weights(i, xi), y.weights(j, eta), {x.origin()[i] + xi * x.length()[i], y.origin()[j] + eta * y.length()[j]}};
+}
+
+void TotalMotion::assemble_mass() {
+    const int degree = grid_.degree(), reach = 2 * degree + 1;
+    const NodeLayout& layout = grid_.layout();
+    stencil_.assign(static_cast<std::size_t>(reach * reach), Column(layout.size));
+    for (int m = 0; m < static_cast<int>(points_.size()); ++m)
+        points_[m].each_point([&](std::size_t slot) {
+            const Basis2 at = basis(m, slot);
+            const double r = grid_.axisymmetric() ? at.reference[0] : 1.0;
+            const double point_mass = materials_[m].density() * points_[m].columns().measure[slot] * r;
+            double value[9];
+            for (int b = 0; b <= degree; ++b)
+                for (int a = 0; a <= degree; ++a) value[b * 3 + a] = at.x.value[a] * at.y.value[b];
+            for (int b = 0; b <= degree; ++b)
+                for (int a = 0; a <= degree; ++a) {
+                    const std::size_t n = layout.index(at.i + a, at.j + b);
+                    const double share = point_mass * value[b * 3 + a];
+                    mass_[n] += share;
+                    for (int d = 0; d <= degree; ++d)
+                        for (int c = 0; c <= degree; ++c)
+                            stencil_[static_cast<std::size_t>((d - b + degree) * reach + c - a + degree)][n] +=
+                                share * value[d * 3 + c];
+                }
+        });
+    inverse_mass_.resize(mass_.size());
+    for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0.0 ? 1.0 / mass_[n] : 0.0;
+}
+
+void TotalMotion::sweep(const VectorField& velocity, const Moment& moment, bool update) {
+    const GridView grid = grid_view();
+    const int n = static_cast<int>(tasks_.size());
+#pragma omp parallel num_threads(threads_) if (threads_ > 1)
+    {
+        Workspace& workspace = workspaces_[omp_get_thread_num()];
+        const bool timed = clock_.on && omp_get_thread_num() == 0;
+        const auto now = [&] { return timed ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{}; };
+        const auto spend = [&](double& phase, auto& since) {
+            if (!timed) return;
+            const auto t = std::chrono::steady_clock::now();
+            phase += std::chrono::duration<double>(t - since).count();
+            since = t;
+        };
+#pragma omp for schedule(static)
+        for (int t = 0; t < n; ++t) {
+            auto since = now();
+            const Task& task = tasks_[t];
+            const Material& material = materials_[task.material];
+            BatchView v = view(task);
+            attach_workspace(material, workspace, v);
+            Outcome& outcome = outcomes_[t];
+            outcome.strain = kernels_.total_strain(grid, v, strain_input(velocity, moment.dt, !material.finite_strain()));
+            spend(clock_.strain, since);
+            if (update && outcome.strain.bad < 0) {
+                const Batch& batch = points_[task.material].layout().batches[task.batch];
+                const double length = std::sqrt(grid_.axis(0).length()[batch.first_column] * grid_.axis(1).length()[batch.cell_row]);
+                outcome.failure = update_batch(material, points_[task.material], batch, v, workspace, moment, length);
+                spend(clock_.material, since);
+            }
+            clear_patch(task, 2);
+            kernels_.total_force(grid, v);
+            spend(clock_.force, since);
+        }
+    }
+    if (update) settle(outcomes_);
+}
+
+void TotalMotion::stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) {
+    const GridView grid = grid_view();
+    const double dt = probe_step(v);
+    for (const Task& task : tasks_) {
+        BatchView view_of = view(task);
+        Workspace& workspace = workspaces_[0];
+        attach_workspace(materials_[task.material], workspace, view_of);
+        kernels_.total_strain(grid, view_of, strain_input(v, dt, true));
+        elastic_stress(moduli[task.material], task, dt, view_of, workspace);
+        clear_patch(task, 2);
+        kernels_.total_force(grid, view_of);
+    }
+    reduce({&out.c[0], &out.c[1]});
+}
+
+PointRecord TotalMotion::record(int material, std::size_t slot) const {
+    const Basis2 at = basis(material, slot);
+    PointRecord r{at.reference, at.reference, {0.0, 0.0}, points_[material].columns().measure[slot]};
+    double f[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
+    for (int b = 0; b <= grid_.degree(); ++b)
+        for (int a = 0; a <= grid_.degree(); ++a) {
+            const std::size_t n = grid_.layout().index(at.i + a, at.j + b);
+            const double value = at.x.value[a] * at.y.value[b];
+            for (int k = 0; k < 2; ++k) {
+                const double u = displacement_.c[k][n];
+                r.position[k] += value * u;
+                r.velocity[k] += value * flip_.c[k][n];
+                f[k][0] += at.x.slope[a] * at.y.value[b] * u;
+                f[k][1] += at.x.value[a] * at.y.slope[b] * u;
+            }
+        }
+    r.volume *= f[0][0] * f[1][1] - f[0][1] * f[1][0];
+    if (grid_.axisymmetric()) r.volume *= r.position[0];
+    return r;
+}
+
+} // namespace
+
+std::unique_ptr<Motion> make_total_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads) {
+    return std::make_unique<TotalMotion>(grid, materials, points, threads);
+}
+
+} // namespace gault::core
