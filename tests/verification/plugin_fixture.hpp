@@ -117,7 +117,10 @@ class Component { // and one instance of it
   public:
     Component(const std::string& plugin, gault_kind kind, const std::string& name, const Settings& settings,
               const std::string& variant = "")
-        : declaration_(find(plugin, kind, name, variant)) {
+        : Component(open(GAULT_BINARY_DIR "/lib/gault/plugins/" + variant + plugin + ".so"), kind, name,
+                    settings) {}
+    Component(const gault_module& module, gault_kind kind, const std::string& name, const Settings& settings)
+        : declaration_(find(module, kind, name)) {
         const Values values(declaration_->parameters, settings);
         gault_error error{-1, 0, -1, ""};
         void* self = nullptr;
@@ -135,15 +138,17 @@ class Component { // and one instance of it
     }
 
   private:
-    static const gault_component* find(const std::string& plugin, gault_kind kind, const std::string& name,
-                                       const std::string& variant) {
-        const std::string file = GAULT_BINARY_DIR "/lib/gault/plugins/" + variant + plugin + ".so";
+    static const gault_module& open(const std::string& file) {
         void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); // stays open, as in the host
         if (!library) throw std::runtime_error(dlerror());
         const auto* module = static_cast<const gault_module*>(dlsym(library, GAULT_ENTRY_SYMBOL));
-        for (const gault_component* const* c = module->components; *c; ++c)
+        if (!module) throw std::runtime_error(file + " does not export " GAULT_ENTRY_SYMBOL);
+        return *module;
+    }
+    static const gault_component* find(const gault_module& module, gault_kind kind, const std::string& name) {
+        for (const gault_component* const* c = module.components; *c; ++c)
             if ((*c)->kind == kind && name == (*c)->name) return *c;
-        throw std::runtime_error(file + " has no " + name);
+        throw std::runtime_error("no component " + name);
     }
     const gault_component* declaration_;
     std::unique_ptr<void, void (*)(void*) noexcept> self_{nullptr, nullptr};
@@ -217,6 +222,7 @@ class Batch {
         return t;
     }
     int64_t count() const { return points_.count; }
+    double suggested() const { return points_.suggest; } // fraction of the step, after GAULT_RETRY
 
     Columns strain, stress_old, stress, state_old, state, tangent;
     Column modulus, shear_modulus;
