@@ -87,12 +87,17 @@ std::string fallback(const gault_parameter& p) {
     return fmt::format("{:g}", p.fallback);
 }
 
+bool is_number(const gault_parameter& p) {
+    return p.type == GAULT_REAL || p.type == GAULT_INTEGER || p.type == GAULT_LIST || p.type == GAULT_TABLE;
+}
+
 // Record kinds and their parameters follow the parameter that holds them, indented.
 void add_parameters(std::vector<Row>& rows, const gault_parameter* const* parameters,
                     const std::string& indent) {
     for (; *parameters; ++parameters) {
         const gault_parameter& p = **parameters;
-        rows.push_back({indent + p.name, p.symbol, p.unit ? p.unit : "", fallback(p), allowed(p), p.doc});
+        rows.push_back({indent + p.name, p.symbol, is_number(p) && p.unit ? p.unit : "", fallback(p),
+                        allowed(p), p.doc});
         if (p.type != GAULT_RECORDS) continue;
         for (const gault_record_kind* const* kind = p.kinds; *kind; ++kind) {
             rows.push_back({fmt::format("{}  {}:", indent, (*kind)->name), "", "", "", "", (*kind)->doc});
@@ -120,7 +125,8 @@ std::string control_table(const gault_boundary_api& api) {
     if (api.control_count == 0) return "\ncontrols: none\n";
     std::vector<Row> rows{{"name", "unit", "uncommanded", "meaning"}};
     for (const gault_signal& s : std::span(api.controls, api.control_count))
-        rows.push_back({s.name, s.unit, fmt::format("{:g}", s.initial), s.doc});
+        rows.push_back(
+            {s.name, s.unit, std::isnan(s.initial) ? "none" : fmt::format("{:g}", s.initial), s.doc});
     return table("controls", rows);
 }
 

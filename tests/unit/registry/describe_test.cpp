@@ -62,7 +62,7 @@ TEST(Describe, ShowsEveryTypeOfParameterAndTheKindsOfRecords) {
     cycles.flags = 0;
     cycles.fallback = 3.0;
     cycles.min = 1.0;
-    gault_parameter smooth = parameter(GAULT_BOOLEAN, "smooth", "", "Begins smoothly.");
+    gault_parameter smooth = parameter(GAULT_BOOLEAN, "smooth", "1", "Begins smoothly.");
     smooth.flags = 0;
     smooth.fallback = 1.0;
     gault_parameter side = parameter(GAULT_CHOICE, "side", "", "Which side.");
@@ -160,10 +160,11 @@ TEST(Describe, ShowsTheStatesAndWishesOfAMaterial) {
 }
 
 TEST(Describe, ShowsTheControlsOfABoundary) {
-    const gault_signal controls[] = {{"pressure", "Pa", "Pressure on the soil.", 100.0}};
+    const gault_signal controls[] = {{"pressure", "Pa", "Pressure on the soil.", 100.0},
+                                     {"velocity", "m/s", "Velocity.", std::nan("")}};
     gault_boundary_api api{};
     api.controls = controls;
-    api.control_count = 1;
+    api.control_count = 2;
     api.load = [](const void*, gault_facets*, gault_error*) noexcept -> gault_status { return GAULT_OK; };
     EXPECT_EQ(described(GAULT_BOUNDARY, no_parameters, &api),
               "boundary" + head +
@@ -171,6 +172,7 @@ TEST(Describe, ShowsTheControlsOfABoundary) {
                   "\ncontrols\n"
                   "    name      unit  uncommanded  meaning\n"
                   "    pressure  Pa    100          Pressure on the soil.\n"
+                  "    velocity  m/s   none         Velocity.\n"
                   "\nimposes: loads\n");
 }
 
