@@ -1,7 +1,9 @@
 #include "core/output/hdf5_file.hpp"
 
 #include <array>
+#include <cstdint>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace gault::core {
 
@@ -115,6 +117,18 @@ void Hdf5File::numbers(const std::string& path, const ColumnInfo& info, std::siz
     if (components == 3) text_attribute(dataset, "components", "x y z");
     if (components == 6) text_attribute(dataset, "components", "xx yy zz xy yz zx");
     if (rows > 0) check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+}
+
+void Hdf5File::count(const std::string& path, const std::string& description, std::size_t rows) {
+    std::vector<std::int64_t> values(rows);
+    std::iota(values.begin(), values.end(), 0);
+    const hsize_t shape = rows;
+    const Hdf5Handle space(check(H5Screate_simple(1, &shape, nullptr)), H5Sclose), properties = untimed();
+    const Hdf5Handle dataset(
+        check(H5Dcreate2(file_, path.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT)),
+        H5Dclose);
+    describe(dataset, "1", description);
+    check(H5Dwrite(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
 }
 
 void Hdf5File::text(const std::string& path, const std::string& description, const std::string& value) {

@@ -37,6 +37,7 @@ class Hdf5File {
     // (rows) or (rows, components), row-major, with the attributes `unit` and `description`.
     void numbers(const std::string& path, const ColumnInfo& info, std::size_t rows, int components,
                  const double* values);
+    void count(const std::string& path, const std::string& description, std::size_t rows); // 0, 1, 2 ...
     void text(const std::string& path, const std::string& description, const std::string& value);
     void link(const std::string& path, const std::string& relative_file); // to the same path there
     void close(); // the file is complete only after this

@@ -90,6 +90,7 @@ struct ResultWriter::Impl {
         out.text("/scene", "the scene as run, YAML", provenance.scene_yaml);
         out.text("/provenance", "what made these results, JSON",
                  provenance.text.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        out.count("/point", "the number of the material point in each row of a frame", point_count);
         write_history(out);
         out.group("/frames");
         for (std::size_t number = 0; number < frames.size(); ++number) {

@@ -52,10 +52,12 @@ std::string xdmf(const std::vector<FrameRecord>& frames, std::size_t point_count
     std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
                       "<Grid Name=\"points\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
     for (std::size_t number = 0; number < frames.size(); ++number) {
-        out += fmt::format("  <Grid Name=\"{}\" GridType=\"Uniform\">\n    <Time Value=\"{}\"/>\n"
-                           "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" "
-                           "NodesPerElement=\"1\"/>\n",
-                           frame_path(number), frames[number].time, point_count);
+        out += fmt::format(
+            "  <Grid Name=\"{0}\" GridType=\"Uniform\">\n    <Time Value=\"{1}\"/>\n"
+            "    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{2}\" NodesPerElement=\"1\">"
+            "<DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" Dimensions=\"{2}\">"
+            "results.h5:/point</DataItem></Topology>\n",
+            frame_path(number), frames[number].time, point_count);
         for (const auto& field : frames[number].datasets)
             out += field_element(number, field, point_count);
         out += "  </Grid>\n";
