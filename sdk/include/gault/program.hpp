@@ -40,7 +40,9 @@ class Step {
     void finish() { step_->done = 1; }                // the protocol is complete
     void stop_at(double time) { step_->next = time; } // a step ends exactly there, s
 
-    // An event was overshot: repeat the step at this fraction of its length.
+    // An event was overshot: repeat the step at this fraction of its length. An error unless it is
+    // repeatable().
+    bool repeatable() const { return step_->final == 0; }
     void retry(double fraction) { step_->suggest = fraction, retried_ = true; }
     bool retried() const { return retried_; }
 
