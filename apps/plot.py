@@ -95,7 +95,8 @@ def draw_profiles(axes, folder, frames, reference):
     for profile in reference.get("profiles", []):
         if file := found(profile["file"], folder):
             table = columns(file)
-            axes.plot(pick(table, "current_radius", "radius"), pick(table, "sigma_r"), color=REFERENCE, lw=1, label=label)
+            axes.plot(pick(table, "current_radius", "radius"), pick(table, "sigma_r"), color=REFERENCE, lw=1,
+                      label=label)
             label = None
     axes.set(xscale="log", xlabel="current radius (mm)", ylabel="radial stress, compression positive (kPa)")
     ticks = matplotlib.ticker.LogLocator(subs=(1, 2, 5))

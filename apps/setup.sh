@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that Gault needs and that are missing: as root, or with sudo. Arguments: further packages.
+# Installs the Debian packages that Gault needs and that are missing: as root, or with sudo. Arguments: more packages.
 set -euo pipefail
 
 packages=(build-essential cmake ninja-build pkg-config libeigen3-dev libyaml-cpp-dev libspdlog-dev libfmt-dev

@@ -66,20 +66,14 @@ FrameRecord write_frame(const std::filesystem::path& folder, std::size_t number,
         if (!std::isfinite(value)) throw RunError(fmt::format("{}: attribute '{}' is {}", path, name, value));
 
     const std::filesystem::path file = folder / frame_file_name(number);
-    try {
-        Hdf5File out(temporary_name(file));
-        out.group("/frames");
-        put_frame(out, number, point_count, attributes, datasets);
-        out.close();
-    } catch (...) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary_name(file), ignored);
-        throw;
-    }
+    Hdf5File out(temporary_name(file));
+    out.group("/frames");
+    put_frame(out, number, point_count, attributes, datasets);
+    out.close();
     publish(file);
     for (const auto& [info, components, fill] : datasets) {
-        const auto read_back = [file, place = path + "/" + info.name](double* out) {
-            read_numbers(file, place, out);
+        const auto read_back = [file, place = path + "/" + info.name](double* values) {
+            read_numbers(file, place, values);
         };
         record.datasets.push_back({info, components, read_back});
     }

@@ -66,7 +66,11 @@ Hdf5File::Hdf5File(const std::filesystem::path& file) : name_(file), file_(creat
 }
 
 Hdf5File::~Hdf5File() {
+    if (complete_) return;
+    // Closing a file that cannot be written would crash HDF5 at its next use: such a file stays open.
     if (file_ >= 0 && H5Fflush(file_, H5F_SCOPE_LOCAL) < 0) file_.release();
+    std::error_code ignored;
+    std::filesystem::remove(name_, ignored);
 }
 
 hid_t Hdf5File::check(hid_t result) const {
@@ -147,6 +151,7 @@ void Hdf5File::link(const std::string& path, const std::string& relative_file) {
 
 void Hdf5File::close() {
     check(H5Fclose(file_.release()));
+    complete_ = true;
 }
 
 void read_numbers(const std::filesystem::path& file, const std::string& path, double* values) {

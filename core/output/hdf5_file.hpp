@@ -3,6 +3,7 @@
 #include "core/output/results.hpp"
 
 #include <hdf5.h>
+#include <utility>
 
 namespace gault::core {
 
@@ -26,7 +27,7 @@ class Hdf5Handle { // closes an HDF5 identifier
 class Hdf5File {
   public:
     explicit Hdf5File(const std::filesystem::path& file); // replaces what was there
-    ~Hdf5File(); // leaves a file open that cannot be written: closing it would crash HDF5 at its next use
+    ~Hdf5File();                                          // removes a file that was not closed
     Hdf5File(const Hdf5File&) = delete;
     Hdf5File& operator=(const Hdf5File&) = delete;
 
@@ -49,6 +50,7 @@ class Hdf5File {
 
     std::filesystem::path name_;
     Hdf5Handle file_;
+    bool complete_ = false;
 };
 
 // A dataset of doubles of a closed file into `values`, which holds all of it.

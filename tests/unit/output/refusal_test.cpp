@@ -143,6 +143,16 @@ TEST(Results, AFullDiskEndsTheRunWithTheFileAndTheReason) {
         EXPECT_TRUE(members(folder.results() / "results.h5", "/frames").empty());
         EXPECT_TRUE(fs::is_empty(folder.results() / "frames"));
     }
+    const Folder folder;
+    EXPECT_EXIT(report([&] {
+                    ResultWriter out = writer(folder.results(), 20000);
+                    out.frame(attributes(0), datasets(0, 20000));
+                    limit_file_size(500000);
+                    out.finish();
+                }),
+                testing::ExitedWithCode(3), "cannot write '.*results.h5.tmp': File too large");
+    EXPECT_FALSE(fs::exists(folder.results() / "results.h5.tmp"));
+    EXPECT_EQ(members(folder.results() / "results.h5", "/frames").size(), 1u);
 }
 
 TEST(Results, CanBeFinishedAfterAFullDisk) {
@@ -171,6 +181,7 @@ TEST(Results, CanBeFinishedAfterAFullDisk) {
         EXPECT_EQ(members(file, "/frames").size(), 1u);
         EXPECT_EQ(numbers(file, "/frames/0000/volume").values.back(), value(0, 19999));
         EXPECT_FALSE(fs::exists(folder.results() / "frames"));
+        EXPECT_FALSE(fs::exists(folder.results() / "results.h5.tmp"));
     }
 }
 
