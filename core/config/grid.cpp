@@ -109,15 +109,13 @@ void read_points(const Source& source, Scene& scene) {
     } else {
         note_choice(scene, "points.per_cell", "16", "four a direction");
     }
-    scene.placement = scene.frame == Frame::total ? Placement::gauss : Placement::uniform;
+    scene.placement = Placement::gauss;
     if (const Node* placement = fields.find("placement"); !is_auto(placement))
         scene.placement = read_choice(*placement, "points.placement", {"auto", "uniform", "gauss"}) == 1
                               ? Placement::uniform
                               : Placement::gauss;
-    else if (scene.frame == Frame::total)
-        note_choice(scene, "points.placement", "gauss", "points keep their cells, so quadrature is exact");
     else
-        note_choice(scene, "points.placement", "uniform", "points move through the grid");
+        note_choice(scene, "points.placement", "gauss", "mass and forces are integrated as surface loads are");
 }
 
 } // namespace gault::core::config

@@ -68,6 +68,7 @@ struct BoundaryUse {
 struct SolverSettings {
     double time_step_factor = 0.9; // of the true limit 2 / omega_max
     double damping = 0.0;          // Cundall's local coefficient, 0 <= alpha < 1
+    double viscosity = 0.1; // viscous stress of a step's strain, as a share of the elastic stress of that strain
     double mass_scaling = 1.0;
     StressUpdate stress_update = StressUpdate::usl;
     Location where;

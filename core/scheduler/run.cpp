@@ -230,6 +230,7 @@ Outcome Run::go() {
     } catch (const RunError& error) {
         const std::string message = fmt::format("step {}, t = {:.6g} s: {}; {}", solver_.steps(), solver_.time(), error.what(), advice());
         summary("failed", message);
+        writer_.finish();
         throw RunError(message);
     }
     if (interrupted) return Outcome::interrupted;

@@ -40,6 +40,7 @@ class ExplicitSolver {
     double largest_velocity() const; // m/s, of the grid
 
   private:
+    void refresh_limit();
     void integrate(double dt); // forces to accelerations, on the grid (Eq. 9)
     void account(double dt, const VectorField& internal_before);
     void impose_velocity();

@@ -1,5 +1,6 @@
 #include "core/solver/model.hpp"
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -33,12 +34,19 @@ Rule gauss_rule(int n) {
     return rule;
 }
 
+// Equally spaced points. Their weights are not quite equal: they integrate polynomials up to degree n - 1 exactly, so that
+// mass and internal force agree with the surface loads from the first step.
 Rule uniform_rule(int n) {
     Rule rule;
-    for (int i = 0; i < n; ++i) {
-        rule.at.push_back((i + 0.5) / n);
-        rule.weight.push_back(1.0 / n);
+    for (int i = 0; i < n; ++i) rule.at.push_back((i + 0.5) / n);
+    Eigen::MatrixXd powers(n, n);
+    Eigen::VectorXd moments(n);
+    for (int k = 0; k < n; ++k) {
+        moments[k] = 1.0 / (k + 1.0);
+        for (int i = 0; i < n; ++i) powers(k, i) = std::pow(rule.at[i], k);
     }
+    const Eigen::VectorXd weights = powers.partialPivLu().solve(moments);
+    rule.weight.assign(weights.begin(), weights.end());
     return rule;
 }
 

@@ -69,6 +69,10 @@ BatchView Motion::view(const Task& task) {
     v.mass = at(columns.mass);
     for (int k = 0; k < 6; ++k) v.stress[k] = at(columns.stress[k]);
     for (int k = 0; k < 5; ++k) v.deformation[k] = at(columns.deformation[k]);
+    if (!viscosity_.empty()) {
+        v.viscous_lame = viscosity_[task.material][0];
+        v.viscous_shear = viscosity_[task.material][1];
+    }
     return v;
 }
 
@@ -108,6 +112,7 @@ double Motion::probe_step(const VectorField& v) const {
 void Motion::elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view,
                            Workspace& workspace) {
     const std::size_t first = static_cast<std::size_t>(points_[task.material].layout().batches[task.batch].first_page) * page_slots;
+    view.viscous_lame = view.viscous_shear = 0.0;
     double* stress[4];
     for (int k = 0; k < 4; ++k) view.stress[k] = stress[k] = workspace.column(Workspace::probe + k);
     for (int i = 0; i < view.pages * page_slots; ++i) {

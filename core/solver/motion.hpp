@@ -52,6 +52,9 @@ class Motion {
     virtual double kinetic_energy() const = 0; // J, of the points, with mass scaling left out
     virtual PointRecord record(int material, std::size_t slot) const = 0;
 
+    // Viscous moduli (lame, shear; Pa) of every material: stress of the step's strain that resists in the forces only.
+    void set_viscosity(std::vector<std::array<double, 2>> moduli) { viscosity_ = std::move(moduli); }
+
     double largest_strain() const { return largest_strain_; } // component of the last step
     int64_t updates() const { return updates_; }              // constitutive updates so far
     PhaseClock& clock() { return clock_; }
@@ -96,6 +99,7 @@ class Motion {
     Column patches_;
     std::vector<Workspace> workspaces_; // one a thread
     std::vector<Outcome> outcomes_;
+    std::vector<std::array<double, 2>> viscosity_;
     PhaseClock clock_;
     double largest_strain_ = 0.0;
     int64_t updates_ = 0;

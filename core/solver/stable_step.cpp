@@ -45,17 +45,14 @@ VectorField start_vector(const Column& mass, const FixedField& fixed, const Node
 
 } // namespace
 
-double stable_step(Motion& motion, std::vector<Material>& materials, std::vector<Points>& points, const FixedField& fixed,
+double stable_step(Motion& motion, const std::vector<std::array<Column, 2>>& moduli, const FixedField& fixed,
                    double mass_scaling) {
-    std::vector<std::array<Column, 2>> moduli(materials.size());
-    for (std::size_t m = 0; m < materials.size(); ++m) evaluate_moduli(materials[m], points[m], moduli[m][0], moduli[m][1]);
-
     const NodeLayout& layout = motion.grid().layout();
     const Column& mass = motion.mass();
     VectorField q = start_vector(mass, fixed, layout), before(layout), product(layout), v(layout), z(layout);
     std::vector<double> diagonal, beside;
-    double last = 0.0, beta = 0.0;
-    constexpr int most = 120, check = 5;
+    double top = 0.0, beta = 0.0;
+    constexpr int most = 200, check = 5;
     motion.consistent_mass(q, product);
     double norm = std::sqrt(dot(q, product));
     for (int k = 0; k < most && norm > 0.0; ++k) {
@@ -75,16 +72,17 @@ double stable_step(Motion& motion, std::vector<Material>& materials, std::vector
         q = z;
         motion.consistent_mass(q, product);
         beta = norm = std::sqrt(std::max(0.0, dot(q, product)));
-        if (k % check != check - 1 && norm > 1e-12 * alpha) continue;
+        if (k % check != check - 1 && k + 1 < most && norm > 1e-12 * alpha) continue;
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
         solver.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size())),
                                       Eigen::Map<Eigen::VectorXd>(beside.data(), static_cast<Eigen::Index>(beside.size())),
-                                      Eigen::EigenvaluesOnly);
-        const double top = solver.eigenvalues().maxCoeff();
-        if (top - last < 5e-4 * top || norm <= 1e-12 * alpha) return 2.0 * std::sqrt(mass_scaling / top);
-        last = top;
+                                      Eigen::ComputeEigenvectors);
+        const Eigen::Index k_top = solver.eigenvalues().size() - 1; // in increasing order
+        top = solver.eigenvalues()[k_top];
+        const double residual = beta * std::abs(solver.eigenvectors()(k_top, k_top)); // bounds the error of `top`
+        if (residual < 1e-3 * top) break;
     }
-    return 2.0 * std::sqrt(mass_scaling / last);
+    return 2.0 * std::sqrt(mass_scaling / top);
 }
 
 } // namespace gault::core

@@ -216,20 +216,38 @@ StrainReport total_strain(const GridView& grid, const BatchView& batch, const St
     return watch.report();
 }
 
+struct PlaneStress {
+    Pack xx, yy, zz, xy;
+};
+
+// The stress that acts in forces: the soil's, and the viscous one of the step's strain.
+GAULT_INLINE PlaneStress acting_stress(const BatchView& batch, int slot) {
+    PlaneStress s{Pack::load(batch.stress[0] + slot), Pack::load(batch.stress[1] + slot), Pack::load(batch.stress[2] + slot),
+                  Pack::load(batch.stress[3] + slot)};
+    if (batch.viscous_shear == 0.0) return s;
+    const Pack xx = Pack::load(batch.strain[0] + slot), yy = Pack::load(batch.strain[1] + slot);
+    const Pack zz = Pack::load(batch.strain[2] + slot), xy = Pack::load(batch.strain[3] + slot);
+    const Pack twice = 2.0 * batch.viscous_shear, volumetric = Pack(batch.viscous_lame) * (xx + yy + zz);
+    s.xx += volumetric + twice * xx;
+    s.yy += volumetric + twice * yy;
+    s.zz += volumetric + twice * zz;
+    s.xy += twice * xy;
+    return s;
+}
+
 // f = - integral of P : grad N over the reference volume, with P V0 = stress . flux (Nanson's formula).
 template <int Degree, bool Axisymmetric>
 void total_force(const GridView& grid, const BatchView& batch) {
     scatter_pages<Degree, 2>(batch, [&](auto& nodes, int slot, int column) GAULT_INLINE_LAMBDA {
         const auto wx = weights<Degree>(grid.x, column, Pack::load(batch.place[0] + slot));
         const auto wy = weights<Degree>(grid.y, batch.cell_row, Pack::load(batch.place[1] + slot));
-        const Pack sxx = Pack::load(batch.stress[0] + slot), syy = Pack::load(batch.stress[1] + slot);
-        const Pack sxy = Pack::load(batch.stress[3] + slot);
+        const auto [sxx, syy, szz, sxy] = acting_stress(batch, slot);
         const Pack axx = Pack::load(batch.flux[0] + slot), axy = Pack::load(batch.flux[1] + slot);
         const Pack ayx = Pack::load(batch.flux[2] + slot), ayy = Pack::load(batch.flux[3] + slot);
         const Pack pxx = sxx * axx + sxy * ayx, pxy = sxx * axy + sxy * ayy;
         const Pack pyx = sxy * axx + syy * ayx, pyy = sxy * axy + syy * ayy;
         Pack hoop = 0.0;
-        if constexpr (Axisymmetric) hoop = Pack::load(batch.stress[2] + slot) * Pack::load(batch.flux[4] + slot);
+        if constexpr (Axisymmetric) hoop = szz * Pack::load(batch.flux[4] + slot);
         for (int a = 0; a <= Degree; ++a) {
             Pack xs = pxx * wx.slope[a], xv = pxy * wx.value[a];
             const Pack ys = pyx * wx.slope[a], yv = pyy * wx.value[a];

@@ -46,6 +46,8 @@ struct BatchView {
     double *flux[5];       // total frame: area vectors of the deformed point, xx xy yx yy and hoop
     double *gradient_old[5], *gradient_new[5]; // out: xx xy yx yy zz of F, or null
     double *volume_ratio;                      // out, total frame: J, or null
+
+    double viscous_lame, viscous_shear; // Pa: added to the stress in forces, lame tr(strain) 1 + 2 shear strain
 };
 
 struct StrainReport {

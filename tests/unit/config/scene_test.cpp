@@ -225,13 +225,13 @@ TEST(Scene, TakesTheLeastThatIsEnoughAndSaysWhy) {
             "grid.grading.r: 1 (equal cells)", "grid.grading.y: 1 (equal cells)",
             "grid.basis: quadratic (smooth gradients, so no noise where points cross cells)",
             "points.per_cell: 16 (four a direction)",
-            "points.placement: gauss (points keep their cells, so quadrature is exact)",
+            "points.placement: gauss (mass and forces are integrated as surface loads are)",
             "initial.stress: 0 Pa (nothing is said)", "output.frames: the last state (none are asked for)"}));
 }
 
-TEST(Scene, PlacesMovingPointsUniformly) {
-    EXPECT_EQ(read("plain").placement, Placement::uniform);
-    EXPECT_EQ(read("plain", {{"model.frame", "auto"}}).placement, Placement::gauss);
+TEST(Scene, PlacesPointsUniformlyWhenAsked) {
+    EXPECT_EQ(read("plain").placement, Placement::gauss);
+    EXPECT_EQ(read("plain", {{"points.placement", "uniform"}}).placement, Placement::uniform);
 }
 
 TEST(Override, ReplacesAnyKey) {
