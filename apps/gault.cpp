@@ -1,166 +1,122 @@
-// gault: simulate soil with the material point method. Sub-commands in, exit status out: 0 done, 2 the scene or the command
-// line is wrong, 3 the run failed, 130 interrupted.
+// gault: simulate soil with the material point method. Sub-commands in, exit status out: 0 done, 2 the scene
+// or the command line is wrong, 3 the run failed, 130 interrupted.
+#include "apps/command.hpp"
 #include "core/base/log.hpp"
 #include "core/base/suggest.hpp"
-#include "core/config/scene.hpp"
-#include "core/registry/registry.hpp"
-#include "core/scheduler/run.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <new>
 #include <string>
 #include <vector>
 
 namespace {
 
-using namespace gault::core;
-namespace fs = std::filesystem;
+using namespace gault::app;
+using gault::core::InputError;
+using gault::core::RunError;
+using gault::core::suggestion;
 
-struct Arguments {
-    std::string scene, output, name, level = "info";
-    std::vector<std::string> set;
-    std::vector<fs::path> plugin_path;
-    bool force = false, quiet = false;
-    int threads = 0;
-    std::string command_line;
+constexpr std::array commands{
+    Command{"run", "Runs a scene and writes its results", declare_run},
+    Command{"check", "Does everything that `run` does before its first step", declare_check},
+    Command{"list", "Lists every component with its version and file", declare_list},
+    Command{"describe", "Prints a component's parameters, states or signals, and reference",
+            declare_describe},
 };
 
-std::vector<Override> overrides(const Arguments& arguments) {
-    std::vector<Override> all;
-    for (const std::string& text : arguments.set) {
-        const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw InputError(fmt::format("--set {}: expected KEY=VALUE, e.g. --set materials.sand.friction_angle='46 deg'", text));
-        all.push_back({text.substr(0, equals), text.substr(equals + 1)});
-    }
-    return all;
+bool is_option(const std::string& word) {
+    return word.size() > 1 && word[0] == '-';
 }
 
-int run(const Arguments& arguments, bool check_only) {
-    const auto changes = overrides(arguments);
-    const Registry registry(plugin_search_path(scene_plugins(arguments.scene, changes), arguments.plugin_path));
-    const Scene scene = read_scene(arguments.scene, changes, registry);
-    if (check_only) {
-        for (const std::string& line : check_scene(scene)) fmt::print("{}\n", line);
-        fmt::print("{}: this scene can run\n", arguments.scene);
-        return 0;
-    }
-    for (const std::string& line : scene.chosen) log::debug("{}", line);
-    RunOptions options;
-    options.folder = arguments.output.empty() ? fs::path("out") / fs::path(arguments.scene).stem() : fs::path(arguments.output);
-    options.replace = arguments.force;
-    options.quiet = arguments.quiet;
-    options.threads = arguments.threads;
-    options.command_line = arguments.command_line;
-    options.program_version = GAULT_VERSION;
-    return run_scene(scene, options) == gault::core::Outcome::interrupted ? 130 : 0;
-}
-
-int list(const Arguments& arguments) {
-    const Registry registry(plugin_search_path({}, arguments.plugin_path));
-    for (const Component& c : registry.components())
-        fmt::print("{:<10} {:<20} {:<10} {}\n", kind_name(c.declaration->kind), c.declaration->name, c.declaration->version, c.file.string());
-    return 0;
-}
-
-int describe_component(const Arguments& arguments) {
-    const Registry registry(plugin_search_path({}, arguments.plugin_path));
+std::vector<std::string> options_of(const CLI::App& app) {
     std::vector<std::string> names;
-    bool found = false;
-    for (const Component& c : registry.components()) {
-        names.emplace_back(c.declaration->name);
-        if (arguments.name != c.declaration->name) continue;
-        fmt::print("{}{}", found ? "\n" : "", describe(c));
-        found = true;
-    }
-    if (!found) throw InputError(fmt::format("no component '{}'{}", arguments.name, suggestion(arguments.name, names)));
-    return 0;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
+    return names;
 }
 
-void scene_options(CLI::App& command, Arguments& arguments) {
-    command.add_option("scene", arguments.scene, "The scene, a YAML file")->required();
-    command.add_option("--set", arguments.set,
-                       "KEY=VALUE: overrides a key of the scene; dots for maps, numbers for list items. May be repeated")
-        ->allow_extra_args(false);
+std::string allowed_commands(const std::string& word) {
+    std::vector<std::string> names;
+    for (const Command& command : commands)
+        names.emplace_back(command.name);
+    return suggestion(word, names);
 }
 
-void plugin_options(CLI::App& command, Arguments& arguments) {
-    command.add_option("--plugin-path", arguments.plugin_path,
-                       "A folder of plugins or a plugin file, searched before GAULT_PLUGIN_PATH and the installation's own "
-                       "folder. May be repeated")
-        ->allow_extra_args(false);
+std::string unknown_option(const std::string& word, const CLI::App& app, const CLI::App& command) {
+    const std::string name = word.substr(0, word.find('='));
+    if (command.get_option_no_throw(name))
+        return fmt::format("option '{}' stands before its command: write `gault {} ... {}`", name,
+                           command.get_name(), name);
+    std::vector<std::string> names = options_of(command);
+    if (&command != &app)
+        for (std::string& global : options_of(app))
+            if (std::find(names.begin(), names.end(), global) == names.end())
+                names.push_back(std::move(global));
+    return fmt::format("no option '{}'{}", name, suggestion(name, names));
 }
 
-const std::vector<std::string> command_names = {"run", "check", "list", "describe"};
-
-// A mistyped command gets the nearest one, before CLI11 says something about unexpected arguments.
-void check_command(int count, char** words) {
-    for (int i = 1; i < count; ++i) {
-        const std::string word = words[i];
-        if (word.empty() || word[0] == '-') continue;
-        if (std::find(command_names.begin(), command_names.end(), word) == command_names.end())
-            throw InputError(fmt::format("no command '{}'{}", word, suggestion(word, command_names)));
-        return;
-    }
+// One line: what is wrong with the command line, and the nearest right word.
+std::string explanation(const CLI::App& app, const CLI::ParseError& error) {
+    const auto chosen = app.get_subcommands();
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    const auto unread = app.remaining(true);
+    if (chosen.empty() && !unread.empty() && !is_option(unread[0]))
+        return fmt::format("no command '{}'{}", unread[0], allowed_commands(unread[0]));
+    for (const std::string& word : unread)
+        if (is_option(word)) return unknown_option(word, app, command);
+    const std::string name = chosen.empty() ? "gault" : "gault " + command.get_name();
+    if (!unread.empty()) return fmt::format("unexpected '{}'; see `{} --help`", unread[0], name);
+    if (chosen.empty() && dynamic_cast<const CLI::RequiredError*>(&error))
+        return "a command is required" + allowed_commands("");
+    return fmt::format("{}; see `{} --help`", error.what(), name);
 }
 
 int dispatch(int count, char** words) {
-    Arguments arguments;
-    for (int i = 0; i < count; ++i) arguments.command_line += (i ? " " : "") + std::string(words[i]);
-    CLI::App app{"Simulates soil with the material point method; soils, boundaries and loading programs are plugins.", "gault"};
+    CLI::App app{
+        "Simulates soil with the material point method; soils, boundaries and loading programs are plugins.",
+        "gault"};
     app.set_version_flag("--version", std::string("gault ") + GAULT_VERSION);
     app.require_subcommand(1);
+    app.fallthrough();
     app.footer("Examples:\n"
                "  gault run configs/paper/fahey.yaml -o out/fahey\n"
+               "  gault check configs/paper/fahey.yaml\n"
                "  gault describe mohr_coulomb\n"
+               "`gault COMMAND --help` lists the options of a command.\n\n"
                "Exit status: 0 done, 2 wrong scene or command line, 3 the run failed, 130 interrupted.");
-    app.add_option("--log-level", arguments.level, "debug, info, warn or error")
+    std::string level = "info";
+    app.add_option("--log-level", level, "debug, info, warn or error")
         ->check(CLI::IsMember({"debug", "info", "warn", "error"}))
+        ->type_name("LEVEL")
         ->capture_default_str();
-
-    CLI::App* run_command = app.add_subcommand("run", "Runs a scene and writes its results");
-    scene_options(*run_command, arguments);
-    run_command->add_option("-o,--output", arguments.output, "Folder of the results (default: out/NAME_OF_SCENE)");
-    run_command->add_flag("--force", arguments.force, "Replaces the results that the folder holds");
-    run_command->add_flag("-q,--quiet", arguments.quiet, "No progress, no closing lines");
-    run_command->add_option("-j,--threads", arguments.threads, "Threads (default: as many as pay for the size of the scene)")
-        ->check(CLI::Range(1, 1024));
-    plugin_options(*run_command, arguments);
-    run_command->footer("Examples:\n"
-                        "  gault run configs/paper/fahey.yaml\n"
-                        "  gault run configs/paper/fahey.yaml -o out/weaker --set materials.sand.friction_angle='46 deg' \\\n"
-                        "      --set boundaries.0.value='150 kPa'\n"
-                        "Writes history.csv, summary.json, results.h5 and results.xdmf.");
-
-    CLI::App* check_command_ = app.add_subcommand("check", "Does everything that `run` does before its first step");
-    scene_options(*check_command_, arguments);
-    plugin_options(*check_command_, arguments);
-    check_command_->footer("Example:\n  gault check configs/paper/fahey.yaml --set grid.cells=[36,1]");
-
-    CLI::App* list_command = app.add_subcommand("list", "Lists every component with its version and file");
-    plugin_options(*list_command, arguments);
-    CLI::App* describe_command = app.add_subcommand("describe", "Prints a component's parameters, states and reference");
-    describe_command->add_option("name", arguments.name, "As `gault list` prints it")->required();
-    plugin_options(*describe_command, arguments);
-    describe_command->footer("Example:\n  gault describe pressuremeter");
-
+    Action chosen;
+    for (const Command& command : commands) {
+        CLI::App& options = *app.add_subcommand(command.name, command.summary);
+        options.final_callback([&chosen, action = command.declare(options)] { chosen = action; });
+    }
     try {
-        check_command(count, words);
         app.parse(count, words);
     } catch (const CLI::Success& asked) { // --help, --version
         return app.exit(asked);
     } catch (const CLI::ParseError& error) {
-        throw InputError(error.what());
+        throw InputError(explanation(app, error));
     }
-    spdlog::set_level(spdlog::level::from_str(arguments.level));
-    if (*run_command) return run(arguments, false);
-    if (*check_command_) return run(arguments, true);
-    if (*list_command) return list(arguments);
-    return describe_component(arguments);
+    spdlog::set_level(spdlog::level::from_str(level));
+    std::string command_line = words[0];
+    for (int i = 1; i < count; ++i)
+        command_line.append(" ").append(words[i]);
+    return chosen(command_line);
+}
+
+int failed(int status, const std::string& what) {
+    fmt::print(stderr, "error: {}\n", what);
+    return status;
 }
 
 } // namespace
@@ -169,15 +125,16 @@ int main(int count, char** words) {
     spdlog::set_default_logger(spdlog::stderr_logger_st("gault"));
     spdlog::set_pattern("%v");
     try {
-        return dispatch(count, words);
+        const int status = dispatch(count, words);
+        if (std::fflush(stdout) != 0) return failed(3, "the standard output cannot be written");
+        return status;
     } catch (const InputError& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 2;
+        return failed(2, error.what());
     } catch (const RunError& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 3;
+        return failed(3, error.what());
+    } catch (const std::bad_alloc&) {
+        return failed(3, "internal error: out of memory");
     } catch (const std::exception& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
-        return 3;
+        return failed(3, fmt::format("internal error: {}", error.what()));
     }
 }

@@ -1,0 +1,35 @@
+#include "apps/command.hpp"
+#include "core/scheduler/run.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace gault::app {
+namespace {
+
+int check(const SceneArguments& arguments) {
+    const auto changes = arguments.overrides();
+    const core::Registry registry(
+        core::plugin_search_path(core::scene_plugins(arguments.file, changes), arguments.plugin_path));
+    const core::Scene scene = core::read_scene(arguments.file, changes, registry);
+    for (const std::string& line : core::check_scene(scene))
+        fmt::print("{}\n", line);
+    fmt::print("{}: this scene can run\n", arguments.file);
+    return 0;
+}
+
+} // namespace
+
+Action declare_check(CLI::App& options) {
+    const auto arguments = std::make_shared<SceneArguments>();
+    arguments->declare(options);
+    options.footer("Prints what was left to the program and what it took, how many points, nodes or facets "
+                   "each selection took hold of,\nand the time step. Writes nothing.\n\n"
+                   "Examples:\n"
+                   "  gault check configs/paper/fahey.yaml\n"
+                   "  gault check configs/paper/fahey.yaml --set grid.cells=[36,1]");
+    return [arguments](const std::string&) { return check(*arguments); };
+}
+
+} // namespace gault::app

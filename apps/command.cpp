@@ -1,0 +1,39 @@
+#include "apps/command.hpp"
+
+#include <fmt/format.h>
+
+namespace gault::app {
+
+void SceneArguments::declare(CLI::App& options) {
+    options.add_option("scene", file, "The scene, a YAML file")->required()->type_name("FILE");
+    options
+        .add_option("--set", set,
+                    "Overrides a key of the scene; dots for maps, numbers for list items. May be repeated")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+    declare_plugin_path(options, plugin_path);
+}
+
+std::vector<core::Override> SceneArguments::overrides() const {
+    std::vector<core::Override> all;
+    for (const std::string& text : set) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw core::InputError(fmt::format(
+                "--set {}: expected KEY=VALUE, e.g. --set materials.sand.friction_angle='46 deg'", text));
+        all.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    return all;
+}
+
+void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path) {
+    options
+        .add_option("--plugin-path", plugin_path,
+                    "A folder of plugins or a plugin file, searched before GAULT_PLUGIN_PATH (colons "
+                    "between) and the "
+                    "installation's own folder. May be repeated")
+        ->allow_extra_args(false)
+        ->type_name("PATH");
+}
+
+} // namespace gault::app

@@ -1,0 +1,42 @@
+// The sub-commands of gault. Each is a file of its own and a line of the table in gault.cpp.
+#pragma once
+#include "core/config/scene.hpp"
+#include "core/registry/registry.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gault::app {
+
+// Runs a command whose options are read. `command_line`: as typed, for the provenance. Returns the exit
+// status.
+using Action = std::function<int(const std::string& command_line)>;
+
+struct Command {
+    const char* name;
+    const char* summary;
+    Action (*declare)(CLI::App& options); // adds the command's options, which its action holds
+};
+
+Action declare_run(CLI::App& options);
+Action declare_check(CLI::App& options);
+Action declare_list(CLI::App& options);
+Action declare_describe(CLI::App& options);
+
+// A scene on the command line: the file, --set, --plugin-path.
+struct SceneArguments {
+    std::string file;
+    std::vector<std::string> set;
+    std::vector<std::filesystem::path> plugin_path;
+
+    void declare(CLI::App& options);
+    std::vector<core::Override> overrides() const; // InputError: not KEY=VALUE
+};
+
+void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path);
+
+} // namespace gault::app
