@@ -149,7 +149,7 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
             const std::size_t n = surface.size();
             for (std::size_t q = 0; q < n; ++q) {
                 const auto x = surface.position(q), area = surface.area(q), v = surface.interpolate(velocity, q);
-                const double size = std::hypot(area[0], area[1]);
+                const double size = std::sqrt(area[0] * area[0] + area[1] * area[1]);
                 for (int a = 0; a < 2; ++a) {
                     l.position[a][q] = x[a];
                     l.normal[a][q] = size > 0.0 ? area[a] / size : 0.0;
@@ -180,7 +180,7 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
             if (status != GAULT_OK) refuse(condition, status, error);
             for (std::size_t q = 0; q < n; ++q) {
                 const auto area = surface.area(q);
-                const double size = std::hypot(area[0], area[1]), p = l.pressure[q];
+                const double size = std::sqrt(area[0] * area[0] + area[1] * area[1]), p = l.pressure[q];
                 surface.add_force(force, q, {l.traction[0][q] * size - p * area[0], l.traction[1][q] * size - p * area[1]});
             }
         }

@@ -31,6 +31,7 @@ class Boundaries {
     void load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force);
 
     Surface& surface(int side) { return surfaces_[side]; }
+    const Surface& surface(int side) const { return surfaces_[side]; }
 
     // A control named `name` on `side` (any side if nullopt): sets every listener, returns how many there are; `unit` gets
     // the unit of a listener.

@@ -26,8 +26,9 @@ double Energies::error() const {
 ExplicitSolver::ExplicitSolver(const Scene& scene, Model& model, int threads)
     : settings_(scene.solver), gravity_(scene.gravity), model_(model), motion_(make_motion(scene, model, threads)),
       boundaries_(scene, *motion_, [&](const std::array<double, 2>& at) { return model.behind(scene, at); }),
-      internal_(model.grid.layout()), traction_(internal_), acceleration_(internal_), velocity_(internal_),
-      velocity_before_(internal_), damping_(internal_), reaction_(internal_), value_(internal_), fixed_(internal_) {
+      internal_(model.grid.layout()), internal_before_(internal_), traction_(internal_), acceleration_(internal_), velocity_(internal_),
+      velocity_before_(internal_), damping_(internal_), reaction_(internal_), value_(internal_), fixed_(internal_),
+      energies_of_row_(static_cast<std::size_t>(model.grid.layout().ny)) {
     for (int side = 0; side < 4; ++side) {
         initial_area_[side] = boundaries_.surface(side).total_area();
         initial_radius_[side] = boundaries_.surface(side).mean_radius();
@@ -58,57 +59,76 @@ void ExplicitSolver::refresh_limit() {
     strained_ = 0.0;
 }
 
+template <class F> void ExplicitSolver::each_row(F f) {
+    const NodeLayout& layout = model_.grid.layout();
+    motion_->team().each(layout.ny, [&](int j, int) {
+        f(j, layout.row_begin(j), layout.row_begin(j) + static_cast<std::size_t>(layout.row));
+    });
+}
+
 void ExplicitSolver::impose_velocity() {
-    for (int k = 0; k < 2; ++k)
-        for (std::size_t n = 0; n < velocity_.c[k].size(); ++n)
-            if (fixed_.c[k][n] != 0.0) velocity_.c[k][n] = value_.c[k][n];
+    each_row([&](int, std::size_t begin, std::size_t end) {
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = begin; n < end; ++n)
+                if (fixed_.c[k][n] != 0.0) velocity_.c[k][n] = value_.c[k][n];
+    });
 }
 
-void ExplicitSolver::integrate(double dt) {
+void ExplicitSolver::integrate(double dt, const VectorField& internal) {
     const Column& mass = motion_->mass();
-    for (int k = 0; k < 2; ++k) {
-        const double g = gravity_[k], alpha = settings_.damping;
-        for (std::size_t n = 0; n < mass.size(); ++n) {
-            if (mass[n] <= 0.0) continue;
-            const double inertia = mass[n] * settings_.mass_scaling;
-            const double force = internal_.c[k][n] + traction_.c[k][n] + mass[n] * g, v = velocity_before_.c[k][n];
-            if (fixed_.c[k][n] != 0.0) {
-                acceleration_.c[k][n] = (value_.c[k][n] - v) / dt;
-                reaction_.c[k][n] = inertia * acceleration_.c[k][n] - force;
-                damping_.c[k][n] = 0.0;
-            } else { // Cundall's local damping opposes the velocity by a share of the force
-                reaction_.c[k][n] = 0.0;
-                damping_.c[k][n] = v > 0.0 ? -alpha * std::abs(force) : v < 0.0 ? alpha * std::abs(force) : 0.0;
-                acceleration_.c[k][n] = (force + damping_.c[k][n]) / inertia;
+    const double alpha = settings_.damping;
+    each_row([&](int, std::size_t begin, std::size_t end) {
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = begin; n < end; ++n) {
+                if (mass[n] <= 0.0) continue;
+                const double inertia = mass[n] * settings_.mass_scaling;
+                const double force = internal.c[k][n] + traction_.c[k][n] + mass[n] * gravity_[k];
+                const double v = velocity_before_.c[k][n];
+                if (fixed_.c[k][n] != 0.0) {
+                    acceleration_.c[k][n] = (value_.c[k][n] - v) / dt;
+                    reaction_.c[k][n] = inertia * acceleration_.c[k][n] - force;
+                    damping_.c[k][n] = 0.0;
+                } else { // Cundall's local damping opposes the velocity by a share of the force
+                    reaction_.c[k][n] = 0.0;
+                    damping_.c[k][n] = v > 0.0 ? -alpha * std::abs(force) : v < 0.0 ? alpha * std::abs(force) : 0.0;
+                    acceleration_.c[k][n] = (force + damping_.c[k][n]) / inertia;
+                }
             }
-        }
-    }
+    });
 }
 
-void ExplicitSolver::account(double dt, const VectorField& internal_before) {
+void ExplicitSolver::account(double dt) {
     const Column& mass = motion_->mass();
-    for (int k = 0; k < 2; ++k)
-        for (std::size_t n = 0; n < mass.size(); ++n) {
-            const double v = velocity_.c[k][n], mean = 0.5 * (v + velocity_before_.c[k][n]);
-            energies_.internal -= 0.5 * dt * (internal_before.c[k][n] + internal_.c[k][n]) * v;
-            energies_.external += dt * ((traction_.c[k][n] + mass[n] * gravity_[k] + reaction_.c[k][n]) * mean);
-            energies_.damping += dt * damping_.c[k][n] * mean;
-        }
+    each_row([&](int j, std::size_t begin, std::size_t end) {
+        Energies row;
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = begin; n < end; ++n) {
+                const double v = velocity_.c[k][n], mean = 0.5 * (v + velocity_before_.c[k][n]);
+                row.internal -= 0.5 * dt * (internal_before_.c[k][n] + internal_.c[k][n]) * v;
+                row.external += dt * ((traction_.c[k][n] + mass[n] * gravity_[k] + reaction_.c[k][n]) * mean);
+                row.damping += dt * damping_.c[k][n] * mean;
+            }
+        energies_of_row_[static_cast<std::size_t>(j)] = row;
+    });
+    for (const Energies& row : energies_of_row_) {
+        energies_.internal += row.internal;
+        energies_.external += row.external;
+        energies_.damping += row.damping;
+    }
 }
 
 void ExplicitSolver::step(double dt) {
     boundaries_.load(*motion_, time_, dt, velocity_, traction_);
     boundaries_.constrain(*motion_, time_ + dt, dt, fixed_, value_);
-    const VectorField internal_before = internal_;
+    std::swap(internal_, internal_before_);
     const Moment moment{time_ + dt, dt};
     if (motion_->stress_first()) {
-        velocity_before_ = velocity_;
         motion_->map_velocity(velocity_);
         impose_velocity();
         motion_->deform(velocity_, moment);
         motion_->forces(internal_);
         std::swap(velocity_, velocity_before_);
-        integrate(dt);
+        integrate(dt, internal_);
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = 0; n < velocity_.c[k].size(); ++n)
                 velocity_.c[k][n] = velocity_before_.c[k][n] + dt * acceleration_.c[k][n];
@@ -116,13 +136,13 @@ void ExplicitSolver::step(double dt) {
         motion_->advance(acceleration_, velocity_, dt);
     } else {
         std::swap(velocity_, velocity_before_);
-        integrate(dt);
+        integrate(dt, internal_before_);
         motion_->accelerate(acceleration_, dt, velocity_);
         impose_velocity();
         motion_->deform(velocity_, moment);
         motion_->forces(internal_);
     }
-    account(dt, internal_before);
+    account(dt);
     strained_ += motion_->largest_strain();
     time_ += dt;
     ++steps_;
@@ -153,6 +173,20 @@ bool ExplicitSolver::measures_surface(const std::string& name) {
     return std::find(names.begin(), names.end(), name) < names.begin() + 7;
 }
 
+// What the boundaries push with: loads, and the reactions at the present stress.
+double ExplicitSolver::normal_force(int side) const {
+    const int k = normal_axis(side);
+    const Column& mass = motion_->mass();
+    double total = 0.0;
+    for (const std::size_t n : boundaries_.surface(side).nodes()) {
+        const double force = fixed_.c[k][n] == 0.0
+                                 ? traction_.c[k][n]
+                                 : mass[n] * (settings_.mass_scaling * acceleration_.c[k][n] - gravity_[k]) - internal_.c[k][n];
+        total -= outward(side) * force;
+    }
+    return total;
+}
+
 std::optional<double> ExplicitSolver::measure(const std::string& name, int side) {
     if (name == "kinetic_energy") return energies().kinetic;
     if (name == "internal_energy") return energies_.internal;
@@ -164,15 +198,7 @@ std::optional<double> ExplicitSolver::measure(const std::string& name, int side)
     if (name == "initial_radius") return initial_radius_[side];
     if (name == "initial_area") return initial_area_[side];
     Surface& surface = boundaries_.surface(side);
-    if (name == "normal_force") { // what the boundaries push with: loads, and the reactions at the present stress
-        VectorField force = traction_;
-        const Column& mass = motion_->mass();
-        for (int k = 0; k < 2; ++k)
-            for (std::size_t n = 0; n < mass.size(); ++n)
-                if (fixed_.c[k][n] != 0.0)
-                    force.c[k][n] = mass[n] * (settings_.mass_scaling * acceleration_.c[k][n] - gravity_[k]) - internal_.c[k][n];
-        return surface.normal_force(force);
-    }
+    if (name == "normal_force") return normal_force(side);
     surface.refresh(*motion_);
     if (name == "radius") return surface.mean_radius();
     if (name == "area") return surface.total_area();

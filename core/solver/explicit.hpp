@@ -41,8 +41,10 @@ class ExplicitSolver {
 
   private:
     void refresh_limit();
-    void integrate(double dt); // forces to accelerations, on the grid (Eq. 9)
-    void account(double dt, const VectorField& internal_before);
+    void integrate(double dt, const VectorField& internal); // forces to accelerations, on the grid (Eq. 9)
+    void account(double dt);
+    double normal_force(int side) const;
+    template <class F> void each_row(F f); // f(row, first node, end), in parallel
     void impose_velocity();
 
     const SolverSettings& settings_;
@@ -50,10 +52,11 @@ class ExplicitSolver {
     Model& model_;
     std::unique_ptr<Motion> motion_;
     Boundaries boundaries_;
-    VectorField internal_, traction_, acceleration_, velocity_, velocity_before_, damping_, reaction_, value_;
+    VectorField internal_, internal_before_, traction_, acceleration_, velocity_, velocity_before_, damping_, reaction_, value_;
     FixedField fixed_;
     std::array<double, 4> initial_area_, initial_radius_;
     Energies energies_;
+    std::vector<Energies> energies_of_row_; // of the last step
     double time_ = 0.0, limit_ = 0.0, strained_ = 0.0;
     int64_t steps_ = 0;
 };

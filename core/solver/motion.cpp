@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace gault::core {
 
 Motion::Motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads)
     : grid_(grid), materials_(materials), points_(points),
-      kernels_(select_kernels(grid.degree(), grid.axisymmetric())), threads_(threads) {
+      kernels_(select_kernels(grid.degree(), grid.axisymmetric())), team_(threads) {
     plan();
 }
 
@@ -31,7 +32,7 @@ void Motion::plan() {
     patches_.assign(patch, 0.0);
     outcomes_.assign(tasks_.size(), {});
     workspaces_.clear();
-    for (int t = 0; t < threads_; ++t) workspaces_.emplace_back(most);
+    for (int t = 0; t < team_.threads(); ++t) workspaces_.emplace_back(most);
 }
 
 bool Motion::plan_is_stale() const {
@@ -76,6 +77,15 @@ BatchView Motion::view(const Task& task) {
     return v;
 }
 
+UpdateFailure Motion::update_stress(const Task& task, const BatchView& view, Workspace& workspace, const Moment& moment) {
+    const Batch& batch = points_[task.material].layout().batches[task.batch];
+    const double length = std::sqrt(grid_.axis(0).length()[batch.first_column] * grid_.axis(1).length()[batch.cell_row]);
+    static std::mutex legacy; // models with global state are called one at a time
+    std::unique_lock<std::mutex> alone(legacy, std::defer_lock);
+    if (materials_[task.material].one_at_a_time()) alone.lock();
+    return update_batch(materials_[task.material], points_[task.material], batch, view, workspace, moment, length);
+}
+
 void Motion::clear_patch(const Task& task, int components) {
     const Batch& batch = points_[task.material].layout().batches[task.batch];
     std::fill_n(patches_.data() + task.patch, static_cast<std::size_t>(components) * batch.patch_row * (grid_.degree() + 1), 0.0);
@@ -84,8 +94,7 @@ void Motion::clear_patch(const Task& task, int components) {
 void Motion::reduce(const std::vector<Column*>& fields) {
     const NodeLayout& layout = grid_.layout();
     const int degree = grid_.degree(), cell_rows = grid_.axis(1).cells();
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
-    for (int j = 0; j < layout.ny; ++j) {
+    team_.each(layout.ny, [&](int j, int) {
         for (Column* field : fields) std::fill_n(field->data() + layout.row_begin(j), layout.row, 0.0);
         for (int row = std::max(0, j - degree); row <= std::min(j, cell_rows - 1); ++row)
             for (const int t : tasks_of_row_[row]) {
@@ -97,7 +106,7 @@ void Motion::reduce(const std::vector<Column*>& fields) {
                     patch += static_cast<std::ptrdiff_t>(batch.patch_row) * (degree + 1);
                 }
             }
-    }
+    });
 }
 
 double Motion::probe_step(const VectorField& v) const {

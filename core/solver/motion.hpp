@@ -2,20 +2,39 @@
 //   total    weights at the reference positions, computed from fixed cell coordinates; the walls are on the grid for ever
 //   updated  points move through the grid (Eq. 16), which is stretched so that its rim stays on the walls
 #pragma once
+#include "core/base/team.hpp"
 #include "core/grid/grid.hpp"
 #include "core/points/points.hpp"
 #include "core/solver/material.hpp"
 #include "core/transfer/kernels.hpp"
 
 #include <array>
+#include <chrono>
 #include <memory>
 #include <vector>
 
 namespace gault::core {
 
 struct PhaseClock { // seconds spent, by phase
-    double strain = 0, material = 0, force = 0, velocity = 0, reduce = 0, grid = 0, sort = 0;
+    double strain = 0, material = 0, force = 0, velocity = 0, sort = 0; // of the first thread
     bool on = false;
+};
+
+class Stopwatch { // adds the time since the last lap to a phase, if it is on
+  public:
+    explicit Stopwatch(bool on) : on_(on) {
+        if (on_) last_ = std::chrono::steady_clock::now();
+    }
+    void lap(double& phase) {
+        if (!on_) return;
+        const auto now = std::chrono::steady_clock::now();
+        phase += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+  private:
+    bool on_;
+    std::chrono::steady_clock::time_point last_;
 };
 
 struct PointRecord { // of a point, for results
@@ -49,12 +68,13 @@ class Motion {
     virtual void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) = 0;
     virtual void consistent_mass(const VectorField& w, VectorField& out) = 0;
 
-    virtual double kinetic_energy() const = 0; // J, of the points, with mass scaling left out
+    virtual double kinetic_energy() = 0; // J, of the points, with mass scaling left out
     virtual PointRecord record(int material, std::size_t slot) const = 0;
 
     // Viscous moduli (lame, shear; Pa) of every material: stress of the step's strain that resists in the forces only.
     void set_viscosity(std::vector<std::array<double, 2>> moduli) { viscosity_ = std::move(moduli); }
 
+    int64_t configuration() const { return configuration_; } // counts the times that anything moved
     double largest_strain() const { return largest_strain_; } // component of the last step
     int64_t updates() const { return updates_; }              // constitutive updates so far
     PhaseClock& clock() { return clock_; }
@@ -62,6 +82,7 @@ class Motion {
     const std::vector<Material>& materials() const { return materials_; }
     const std::vector<Points>& points() const { return points_; }
     std::size_t point_count() const;
+    Team& team() { return team_; }
     std::string where(int material, std::size_t slot) const; // "point 17 of 'sand' at (0.02, 0.1) m"
 
   protected:
@@ -75,6 +96,7 @@ class Motion {
     BatchView view(const Task& task); // without workspace
     // Sums the patches into nodal fields, in a fixed order.
     void reduce(const std::vector<Column*>& fields);
+    UpdateFailure update_stress(const Task& task, const BatchView& view, Workspace& workspace, const Moment& moment);
     void clear_patch(const Task& task, int components);
     // Points the view's stress at workspace columns with the elastic stress rate of the strains in the view.
     void elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view, Workspace& workspace);
@@ -92,7 +114,7 @@ class Motion {
     std::vector<Material>& materials_;
     std::vector<Points>& points_;
     const Kernels& kernels_;
-    int threads_;
+    Team team_;
     std::vector<Task> tasks_;
     std::vector<std::vector<int>> tasks_of_row_; // by row of cells
     std::vector<int> versions_;                  // of the layouts that the plan is made for
@@ -102,7 +124,7 @@ class Motion {
     std::vector<std::array<double, 2>> viscosity_;
     PhaseClock clock_;
     double largest_strain_ = 0.0;
-    int64_t updates_ = 0;
+    int64_t updates_ = 0, configuration_ = 0;
 };
 
 std::unique_ptr<Motion> make_total_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points,

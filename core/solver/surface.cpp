@@ -39,6 +39,8 @@ Surface::Surface(const Motion& motion, int side) : side_(side), axisymmetric_(mo
 }
 
 void Surface::refresh(const Motion& motion) {
+    if (configuration_ == motion.configuration()) return;
+    configuration_ = motion.configuration();
     for (std::size_t q = 0; q < facets_.size(); ++q) {
         const Facet& f = facets_[q];
         std::array<double, 2> x{}, tangent{};
@@ -51,7 +53,7 @@ void Surface::refresh(const Motion& motion) {
         // The outward normal is the tangent turned by a quarter: left of +y on low x, right of it on high x.
         const double turn = side_ == low_x || side_ == high_y ? 1.0 : -1.0;
         const double ring = f.weight * (axisymmetric_ ? 2.0 * std::numbers::pi * x[0] : 1.0);
-        at_[q] = {x, {-turn * tangent[1] * ring, turn * tangent[0] * ring}, f.weight * std::hypot(tangent[0], tangent[1])};
+        at_[q] = {x, {-turn * tangent[1] * ring, turn * tangent[0] * ring}, f.weight * std::sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1])};
     }
 }
 
@@ -77,7 +79,7 @@ double Surface::mean_radius() const {
 
 double Surface::total_area() const {
     double total = 0.0;
-    for (const Now& now : at_) total += std::hypot(now.area[0], now.area[1]);
+    for (const Now& now : at_) total += std::sqrt(now.area[0] * now.area[0] + now.area[1] * now.area[1]);
     return total;
 }
 
@@ -94,13 +96,6 @@ double Surface::mean_displacement() const {
 double Surface::enclosed_volume() const { // of the solid of revolution: half the flux of (r, 0) through the surface
     double total = 0.0;
     for (const Now& now : at_) total += 0.5 * now.position[0] * std::abs(now.area[0]);
-    return total;
-}
-
-double Surface::normal_force(const VectorField& force) const {
-    const int axis = normal_axis(side_);
-    double total = 0.0;
-    for (const std::size_t node : nodes_) total -= outward(side_) * force.c[axis][node];
     return total;
 }
 

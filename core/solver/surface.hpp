@@ -14,7 +14,8 @@ class Surface {
     int side() const { return side_; }
     std::size_t size() const { return facets_.size(); } // quadrature points
 
-    void refresh(const Motion& motion); // positions, area vectors and displacements now
+    void refresh(const Motion& motion); // positions and area vectors now, if anything moved since the last time
+    const std::vector<std::size_t>& nodes() const { return nodes_; } // indices into a nodal field
 
     // Of quadrature point q. The area vector points out of the soil, m^2 (whole ring, or 1 m of plane strain).
     std::array<double, 2> position(std::size_t q) const { return {at_[q].position[0], at_[q].position[1]}; }
@@ -30,8 +31,6 @@ class Surface {
     double total_area() const;        // m^2
     double mean_displacement() const; // m, into the soil
     double enclosed_volume() const;   // m^3, between the axis and the surface
-    // Sum over the surface's nodes of -n . force: positive pushes into the soil, N.
-    double normal_force(const VectorField& force) const;
 
   private:
     struct Facet {
@@ -48,6 +47,7 @@ class Surface {
 
     int side_;
     bool axisymmetric_;
+    int64_t configuration_ = -1; // of the last refresh
     std::vector<Facet> facets_;
     std::vector<Now> at_;
     std::vector<std::array<double, 2>> reference_;

@@ -1,10 +1,7 @@
 #include "core/solver/motion.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-
-#include <omp.h>
 
 namespace gault::core {
 namespace {
@@ -32,36 +29,32 @@ class TotalMotion final : public Motion {
     }
 
     void accelerate(const VectorField& a, double dt, VectorField& velocity) override {
-        for (int k = 0; k < 2; ++k)
-            for (std::size_t n = 0; n < mass_.size(); ++n) flip_.c[k][n] += dt * a.c[k][n];
+        each_node([&](int k, std::size_t n) { flip_.c[k][n] += dt * a.c[k][n]; });
         consistent_mass(flip_, velocity);
-        for (int k = 0; k < 2; ++k)
-            for (std::size_t n = 0; n < mass_.size(); ++n) velocity.c[k][n] *= inverse_mass_[n];
+        each_node([&](int k, std::size_t n) { velocity.c[k][n] *= inverse_mass_[n]; });
     }
 
     void deform(const VectorField& velocity, const Moment& moment) override {
         sweep(velocity, moment, true);
-        for (int k = 0; k < 2; ++k)
-            for (std::size_t n = 0; n < mass_.size(); ++n) displacement_.c[k][n] += moment.dt * velocity.c[k][n];
+        each_node([&](int k, std::size_t n) { displacement_.c[k][n] += moment.dt * velocity.c[k][n]; });
+        ++configuration_;
     }
 
     void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) override;
 
     void consistent_mass(const VectorField& w, VectorField& out) override {
-        const NodeLayout& layout = grid_.layout();
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
-        for (int j = 0; j < layout.ny; ++j) {
-            const std::size_t begin = layout.row_begin(j);
+        team_.each(grid_.layout().ny, [&](int j, int) {
+            const std::size_t begin = grid_.layout().row_begin(j);
             const double* coefficient[25];
             for (std::size_t c = 0; c < stencil_.size(); ++c) coefficient[c] = stencil_[c].data() + begin;
             for (int k = 0; k < 2; ++k)
-                kernels_.stencil(coefficient, layout.row, w.c[k].data() + begin, out.c[k].data() + begin);
-        }
+                kernels_.stencil(coefficient, grid_.layout().row, w.c[k].data() + begin, out.c[k].data() + begin);
+        });
     }
 
-    double kinetic_energy() const override {
+    double kinetic_energy() override {
         VectorField product(grid_.layout());
-        const_cast<TotalMotion*>(this)->consistent_mass(flip_, product);
+        consistent_mass(flip_, product);
         double energy = 0.0;
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = 0; n < mass_.size(); ++n) energy += 0.5 * flip_.c[k][n] * product.c[k][n];
@@ -71,6 +64,13 @@ class TotalMotion final : public Motion {
     PointRecord record(int material, std::size_t slot) const override;
 
   private:
+    template <class F> void each_node(F f) { // f(component, node)
+        team_.each(grid_.layout().ny, [&](int j, int) {
+            const std::size_t begin = grid_.layout().row_begin(j), end = begin + static_cast<std::size_t>(grid_.layout().row);
+            for (int k = 0; k < 2; ++k)
+                for (std::size_t n = begin; n < end; ++n) f(k, n);
+        });
+    }
     struct Basis2 { // the functions of a point
         int i, j;
         Axis::Weights x, y;
@@ -137,39 +137,21 @@ void TotalMotion::assemble_mass() {
 
 void TotalMotion::sweep(const VectorField& velocity, const Moment& moment, bool update) {
     const GridView grid = grid_view();
-    const int n = static_cast<int>(tasks_.size());
-#pragma omp parallel num_threads(threads_) if (threads_ > 1)
-    {
-        Workspace& workspace = workspaces_[omp_get_thread_num()];
-        const bool timed = clock_.on && omp_get_thread_num() == 0;
-        const auto now = [&] { return timed ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{}; };
-        const auto spend = [&](double& phase, auto& since) {
-            if (!timed) return;
-            const auto t = std::chrono::steady_clock::now();
-            phase += std::chrono::duration<double>(t - since).count();
-            since = t;
-        };
-#pragma omp for schedule(static)
-        for (int t = 0; t < n; ++t) {
-            auto since = now();
-            const Task& task = tasks_[t];
-            const Material& material = materials_[task.material];
-            BatchView v = view(task);
-            attach_workspace(material, workspace, v);
-            Outcome& outcome = outcomes_[t];
-            outcome.strain = kernels_.total_strain(grid, v, strain_input(velocity, moment.dt, !material.finite_strain()));
-            spend(clock_.strain, since);
-            if (update && outcome.strain.bad < 0) {
-                const Batch& batch = points_[task.material].layout().batches[task.batch];
-                const double length = std::sqrt(grid_.axis(0).length()[batch.first_column] * grid_.axis(1).length()[batch.cell_row]);
-                outcome.failure = update_batch(material, points_[task.material], batch, v, workspace, moment, length);
-                spend(clock_.material, since);
-            }
-            clear_patch(task, 2);
-            kernels_.total_force(grid, v);
-            spend(clock_.force, since);
-        }
-    }
+    team_.each(static_cast<int>(tasks_.size()), [&](int t, int thread) {
+        const Task& task = tasks_[t];
+        const Material& material = materials_[task.material];
+        BatchView v = view(task);
+        attach_workspace(material, workspaces_[thread], v);
+        Stopwatch watch(clock_.on && thread == 0);
+        Outcome& outcome = outcomes_[t];
+        outcome.strain = kernels_.total_strain(grid, v, strain_input(velocity, moment.dt, !material.finite_strain()));
+        watch.lap(clock_.strain);
+        if (update && outcome.strain.bad < 0) outcome.failure = update_stress(task, v, workspaces_[thread], moment);
+        watch.lap(clock_.material);
+        clear_patch(task, 2);
+        kernels_.total_force(grid, v);
+        watch.lap(clock_.force);
+    });
     if (update) settle(outcomes_);
 }
 

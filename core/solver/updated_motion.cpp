@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <omp.h>
-
 namespace gault::core {
 namespace {
 
@@ -50,7 +48,7 @@ class UpdatedMotion final : public Motion {
     void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) override;
     void consistent_mass(const VectorField& w, VectorField& out) override;
 
-    double kinetic_energy() const override {
+    double kinetic_energy() override {
         double energy = 0.0;
         for (const Points& points : points_) {
             const PointColumns& c = points.columns();
@@ -71,16 +69,14 @@ class UpdatedMotion final : public Motion {
 
   private:
     template <class F> void each_batch(int components, double& phase, F f) {
-        const double start = clock_.on ? omp_get_wtime() : 0.0;
         const GridView grid = grid_view();
-        const int n = static_cast<int>(tasks_.size());
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
-        for (int t = 0; t < n; ++t) {
+        team_.each(static_cast<int>(tasks_.size()), [&](int t, int thread) {
+            Stopwatch watch(clock_.on && thread == 0);
             BatchView v = view(tasks_[t]);
             if (components) clear_patch(tasks_[t], components);
             f(grid, v, tasks_[t]);
-        }
-        if (clock_.on) phase += omp_get_wtime() - start;
+            watch.lap(phase);
+        });
     }
 
     void map(const double* const* acceleration, const double* const* moving, double dt, VectorField& velocity);
@@ -108,47 +104,33 @@ void UpdatedMotion::deform(const VectorField& velocity, const Moment& moment) {
     const bool move = !stress_first_;
     const StrainInput base{{velocity.c[0].data(), velocity.c[1].data()}, {nullptr, nullptr}, moment.dt, strain_limit, true};
     const GridView grid = grid_view();
-    const int n = static_cast<int>(tasks_.size());
-#pragma omp parallel num_threads(threads_) if (threads_ > 1)
-    {
-        Workspace& workspace = workspaces_[omp_get_thread_num()];
-        const bool timed = clock_.on && omp_get_thread_num() == 0;
-#pragma omp for schedule(static)
-        for (int t = 0; t < n; ++t) {
-            const double start = timed ? omp_get_wtime() : 0.0;
-            const Task& task = tasks_[t];
-            const Material& material = materials_[task.material];
-            const Batch& batch = points_[task.material].layout().batches[task.batch];
-            BatchView v = view(task);
-            attach_workspace(material, workspace, v);
-            StrainInput in = base;
-            in.rotate = !material.finite_strain();
-            Outcome& outcome = outcomes_[t];
-            outcome = {};
-            outcome.strain = kernels_.updated_strain(grid, v, in, true, move);
-            if (v.volume_ratio)
-                for (int i = 0; i < v.pages * page_slots; ++i)
-                    v.volume_ratio[i] = v.mass[i] > 0.0 ? v.measure[i] * material.density() / v.mass[i] : 1.0;
-            const double middle = timed ? omp_get_wtime() : 0.0;
-            if (outcome.strain.bad < 0) {
-                const double length = std::sqrt(grid_.axis(0).length()[batch.first_column] * grid_.axis(1).length()[batch.cell_row]);
-                outcome.failure = update_batch(material, points_[task.material], batch, v, workspace, moment, length);
-            }
-            if (timed) {
-                clock_.strain += middle - start;
-                clock_.material += omp_get_wtime() - middle;
-            }
-        }
-    }
+    team_.each(static_cast<int>(tasks_.size()), [&](int t, int thread) {
+        const Task& task = tasks_[t];
+        const Material& material = materials_[task.material];
+        BatchView v = view(task);
+        attach_workspace(material, workspaces_[thread], v);
+        Stopwatch watch(clock_.on && thread == 0);
+        StrainInput in = base;
+        in.rotate = !material.finite_strain();
+        Outcome& outcome = outcomes_[t];
+        outcome = {};
+        outcome.strain = kernels_.updated_strain(grid, v, in, true, move);
+        if (v.volume_ratio)
+            for (int i = 0; i < v.pages * page_slots; ++i)
+                v.volume_ratio[i] = v.mass[i] > 0.0 ? v.measure[i] * material.density() / v.mass[i] : 1.0;
+        watch.lap(clock_.strain);
+        if (outcome.strain.bad < 0) outcome.failure = update_stress(task, v, workspaces_[thread], moment);
+        watch.lap(clock_.material);
+    });
     settle(outcomes_);
     if (move) follow(velocity, moment.dt);
 }
 
 void UpdatedMotion::follow(const VectorField& velocity, double dt) {
-    const double start = clock_.on ? omp_get_wtime() : 0.0;
+    Stopwatch watch(clock_.on);
     move_walls(velocity, dt);
     resettle();
-    if (clock_.on) clock_.sort += omp_get_wtime() - start;
+    watch.lap(clock_.sort);
 }
 
 void UpdatedMotion::move_walls(const VectorField& velocity, double dt) {
@@ -175,14 +157,14 @@ void UpdatedMotion::move_walls(const VectorField& velocity, double dt) {
         }
     }
     for (int k = 0; k < 2; ++k) grid_.axis(k).move(ends_[k][0], ends_[k][1]);
+    ++configuration_;
 }
 
 void UpdatedMotion::resettle() {
     const GridView grid = grid_view();
     const int n = static_cast<int>(tasks_.size());
     std::vector<std::vector<int64_t>> left(n);
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1)
-    for (int t = 0; t < n; ++t) {
+    team_.each(n, [&](int t, int) {
         const BatchView v = view(tasks_[t]);
         int64_t few[64];
         const int64_t found = kernels_.leavers(grid, v, few, 64);
@@ -192,7 +174,7 @@ void UpdatedMotion::resettle() {
             left[t].resize(found);
             kernels_.leavers(grid, v, left[t].data(), found);
         }
-    }
+    });
     std::vector<std::vector<Points::Move>> moves(points_.size());
     for (int t = 0; t < n; ++t) {
         const Task& task = tasks_[t];
