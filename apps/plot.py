@@ -63,8 +63,6 @@ def has_curve(history):
 
 def draw_curve(axes, folder, history, reference, measured):
     strain, pressure = 100 * pick(history, "cavity_strain"), pick(history, "true_pressure")
-    if measured:
-        axes.axhline(measured, color=MEASURED, lw=1.2, ls=(0, (6, 3)), label=f"measured peak, {measured:g} kPa")
     peak = int(np.argmax(pressure))
     axes.plot(strain, pressure, color=LINE, lw=2, label="Gault")
     for number, curve in enumerate(reference.get("curves", [])):
@@ -73,6 +71,8 @@ def draw_curve(axes, folder, history, reference, measured):
         x, y = list(columns(file).items())[:2]
         axes.plot(100 * x[1], pick(dict([y]), y[0]), color=REFERENCE, lw=1.2, ls="--",
                   label="reference" if number == 0 else None)
+    if measured:
+        axes.axhline(measured, color=MEASURED, lw=1.2, ls=(0, (6, 3)), label=f"measured peak, {measured:g} kPa")
     axes.plot(strain[peak], pressure[peak], "o", color=LINE, ms=5)
     axes.annotate(f"peak {pressure[peak]:.1f} kPa\nat {strain[peak]:.2f} %", (strain[peak], pressure[peak]),
                   xytext=(10, -10), textcoords="offset points", va="top", color=LINE)
@@ -90,12 +90,12 @@ def draw_profiles(axes, folder, frames, reference):
     if len(frames) > MOST_FRAMES:
         frames = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, MOST_FRAMES).round().astype(int))]
     for color, (attributes, radius, stress) in zip(plt.cm.viridis(np.linspace(0, 0.85, len(frames))), frames):
-        axes.plot(radius, stress, ".", color=color, ms=5, mew=0, alpha=0.8, label=frame_label(attributes))
+        axes.plot(radius, stress, ".", color=color, ms=8, mew=0, alpha=0.7, label=frame_label(attributes))
     label = "reference"
     for profile in reference.get("profiles", []):
         if file := found(profile["file"], folder):
             table = columns(file)
-            axes.plot(pick(table, "current_radius", "radius"), pick(table, "sigma_r"), color=REFERENCE, lw=1,
+            axes.plot(pick(table, "current_radius", "radius"), pick(table, "sigma_r"), color=REFERENCE, lw=0.8,
                       label=label)
             label = None
     axes.set(xscale="log", xlabel="current radius (mm)", ylabel="radial stress, compression positive (kPa)")
