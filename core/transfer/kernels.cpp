@@ -283,10 +283,10 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
             const auto wy = weights<Degree>(grid.y, batch.cell_row, at.eta);
             const Gathered vx = gather<Degree>(in.velocity[0] + node, grid.row, wx, wy);
             const Gathered vy = gather<Degree>(in.velocity[1] + node, grid.row, wx, wy);
-            const Pack hxx = dt * vx.dx, hxy = dt * vx.dy, hyx = dt * vy.dx, hyy = dt * vy.dy;
-            const Pack dx = dt * vx.value, dy = dt * vy.value;
             const Pack volume = Pack::load(batch.measure + slot);
-            const Pack live = select(volume > Pack(0.0), one, 0.0);
+            const Pack live = select(volume > Pack(0.0), one, 0.0), step = dt * live; // an empty slot keeps what it has
+            const Pack hxx = step * vx.dx, hxy = step * vx.dy, hyx = step * vy.dx, hyy = step * vy.dy;
+            const Pack dx = step * vx.value, dy = step * vy.value;
             Pack ratio = (one + hxx) * (one + hyy) - hxy * hyx, hoop = 0.0, stretch = 1.0;
             if constexpr (Axisymmetric) {
                 hoop = dx / (at.x + 0.5 * dx);
@@ -299,7 +299,7 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
             store_increment(batch, slot, e, live);
             rotate_stress(batch, slot, e, in.rotate);
             if (!commit) continue;
-            (volume * select(volume > Pack(0.0), ratio, one)).store(batch.measure + slot); // Eq. 13
+            (volume * ratio).store(batch.measure + slot); // Eq. 13
             if (batch.deformation[0]) {
                 const Pack fxx = Pack::load(batch.deformation[0] + slot), fxy = Pack::load(batch.deformation[1] + slot);
                 const Pack fyx = Pack::load(batch.deformation[2] + slot), fyy = Pack::load(batch.deformation[3] + slot);
@@ -310,8 +310,8 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
                 for (int k = 0; k < 5; ++k) Pack::load(batch.gradient_new[k] + slot).store(batch.deformation[k] + slot);
             }
             if (move) { // Eq. 16
-                (at.x + dx * live).store(batch.place[0] + slot);
-                (at.y + dy * live).store(batch.place[1] + slot);
+                (at.x + dx).store(batch.place[0] + slot);
+                (at.y + dy).store(batch.place[1] + slot);
             }
         }
     }

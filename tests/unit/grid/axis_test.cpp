@@ -60,8 +60,8 @@ TEST_P(AnyAxis, SlopesAreDerivativesOfTheValues) {
             const auto before = axis.weights(cell, xi - step), after = axis.weights(cell, xi + step);
             const auto w = axis.weights(cell, xi);
             for (int a = 0; a <= degree; ++a)
-                EXPECT_NEAR(w.slope[a] * axis.length()[cell], (after.value[a] - before.value[a]) / (2.0 * step),
-                            1e-9);
+                EXPECT_NEAR(w.slope[a] * axis.length()[cell],
+                            (after.value[a] - before.value[a]) / (2.0 * step), 1e-9);
         }
 }
 

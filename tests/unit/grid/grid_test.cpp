@@ -9,7 +9,8 @@ namespace gault::core {
 namespace {
 
 Grid grid(int degree) {
-    return Grid(Axis(Axis::graded(0.0, 1.0, 5, 1.0), degree), Axis(Axis::graded(0.0, 1.0, 3, 1.0), degree), true);
+    return Grid(Axis(Axis::graded(0.0, 1.0, 5, 1.0), degree), Axis(Axis::graded(0.0, 1.0, 3, 1.0), degree),
+                true);
 }
 
 TEST(NodeLayout, GivesEveryNodeAndItsMarginAPlaceOfItsOwn) {
