@@ -26,6 +26,7 @@ Action declare_run(CLI::App& options);
 Action declare_check(CLI::App& options);
 Action declare_list(CLI::App& options);
 Action declare_describe(CLI::App& options);
+Action declare_bench(CLI::App& options);
 
 // A scene on the command line: the file, --set, --plugin-path.
 struct SceneArguments {

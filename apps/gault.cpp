@@ -27,6 +27,7 @@ constexpr std::array commands{
     Command{"list", "Lists every component with its version and file", declare_list},
     Command{"describe", "Prints a component's parameters, states or signals, and reference",
             declare_describe},
+    Command{"bench", "Measures speed and memory with the code that `run` runs", declare_bench},
 };
 
 bool is_option(const std::string& word) {

@@ -23,15 +23,19 @@ struct PointColumns {
     Column mass;                      // updated frame, kg
     std::array<Column, 5> deformation; // updated frame, where a material wants F: xx xy yx yy zz
 
-    template <class F> void each(F f) { // every column, in use or not
-        for (Column& c : place) f(c);
-        f(measure);
-        for (Column& c : stress) f(c);
-        for (Column& c : state) f(c);
-        for (Column& c : reference) f(c);
-        for (Column& c : velocity) f(c);
-        f(mass);
-        for (Column& c : deformation) f(c);
+    template <class F> void each(F f) { visit(*this, f); } // every column, in use or not
+    template <class F> void each(F f) const { visit(*this, f); }
+
+  private:
+    template <class Self, class F> static void visit(Self& self, F f) {
+        for (auto& c : self.place) f(c);
+        f(self.measure);
+        for (auto& c : self.stress) f(c);
+        for (auto& c : self.state) f(c);
+        for (auto& c : self.reference) f(c);
+        for (auto& c : self.velocity) f(c);
+        f(self.mass);
+        for (auto& c : self.deformation) f(c);
     }
 };
 
