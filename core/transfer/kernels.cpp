@@ -104,15 +104,19 @@ struct Increment { // of one step: strain and rotation
     Pack xx, yy, zz, xy, cosine, sine;
 };
 
-// From H = d(dt v)/dX, the mid-step F, and the hoop strain: l = H F_mid^-1, strain = sym l, rotation by Hughes & Winget
-// (1980), both accurate to second order in the step.
+// From H = d(dt v)/dX, the mid-step F, and the hoop strain: l = H F_mid^-1, rotation by Hughes & Winget (1980), strain = sym l
+// turned from the middle of the step to its end, by half the rotation: without that, the stress of a body that stretches
+// while it turns is accurate to first order only.
 GAULT_INLINE Increment increment(Pack hxx, Pack hxy, Pack hyx, Pack hyy, Pack fxx, Pack fxy, Pack fyx, Pack fyy, Pack hoop) {
     const Pack inverse = Pack(1.0) / (fxx * fyy - fxy * fyx);
     const Pack lxx = (hxx * fyy - hxy * fyx) * inverse, lxy = (hxy * fxx - hxx * fxy) * inverse;
     const Pack lyx = (hyx * fyy - hyy * fyx) * inverse, lyy = (hyy * fxx - hyx * fxy) * inverse;
     const Pack half = 0.25 * (lxy - lyx); // tangent of half the angle
     const Pack scale = Pack(1.0) / (Pack(1.0) + half * half);
-    return {lxx, lyy, hoop, 0.5 * (lxy + lyx), (Pack(1.0) - half * half) * scale, (half + half) * scale};
+    const Pack cosine = (Pack(1.0) - half * half) * scale, sine = (half + half) * scale;
+    const Pack shear = 0.5 * (lxy + lyx), difference = lyy - lxx;
+    const Pack turn = half * half * scale * difference + sine * shear; // what xx gains and yy loses
+    return {lxx + turn, lyy - turn, hoop, 0.5 * sine * difference + cosine * shear, cosine, sine};
 }
 
 GAULT_INLINE void store_increment(const BatchView& batch, int slot, const Increment& e, Pack live) {

@@ -93,18 +93,23 @@ struct Step { // of one point, in three dimensions; z is the hoop direction or o
     double cosine, sine; // of the rotation, counter-clockwise
 };
 
+inline Matrix turn(double angle) {
+    return {{{std::cos(angle), -std::sin(angle), 0}, {std::sin(angle), std::cos(angle), 0}, {0, 0, 1}}};
+}
+
 // From the deformation gradients at the ends of the step: strain by the mid-point rule, rotation by Hughes
-// and Winget.
+// and Winget. Strain and old stress are turned to the end of the step: from its middle, and from its start.
 inline Step step(const Matrix& f_old, const Matrix& f_new, const std::array<double, 6>& stress, bool rotate) {
     const Matrix rate = product(combine(1.0, f_new, -1.0, f_old), inverted(combine(0.5, f_old, 0.5, f_new)));
-    Step result;
-    result.strain = components(combine(0.5, rate, 0.5, transposed(rate)));
     const double angle = 2.0 * std::atan(0.25 * (rate[1][0] - rate[0][1]));
+    const auto turned = [](const Matrix& m, double by) {
+        return product(product(turn(by), m), transposed(turn(by)));
+    };
+    Step result;
+    result.strain = components(turned(combine(0.5, rate, 0.5, transposed(rate)), 0.5 * angle));
+    result.stress_old = components(turned(tensor(stress), rotate ? angle : 0.0));
     result.cosine = std::cos(angle);
     result.sine = std::sin(angle);
-    Matrix turn = identity();
-    if (rotate) turn = {{{result.cosine, -result.sine, 0}, {result.sine, result.cosine, 0}, {0, 0, 1}}};
-    result.stress_old = components(product(product(turn, tensor(stress)), transposed(turn)));
     return result;
 }
 
