@@ -25,7 +25,7 @@ double Energies::error() const {
 
 ExplicitSolver::ExplicitSolver(const Scene& scene, Model& model, int threads)
     : settings_(scene.solver), gravity_(scene.gravity), model_(model), motion_(make_motion(scene, model, threads)),
-      boundaries_(scene, *motion_, [&](const std::array<double, 2>& at) { return model.behind(scene, at); }),
+      boundaries_(scene, *motion_, model.behind(scene)),
       internal_(model.grid.layout()), internal_before_(internal_), traction_(internal_), acceleration_(internal_), velocity_(internal_),
       velocity_before_(internal_), damping_(internal_), reaction_(internal_), value_(internal_), fixed_(internal_),
       energies_of_row_(static_cast<std::size_t>(model.grid.layout().ny)) {
@@ -45,7 +45,7 @@ void ExplicitSolver::refresh_limit() {
     std::vector<std::array<Column, 2>> moduli(model_.materials.size());
     std::vector<std::array<double, 2>> viscosity(model_.materials.size());
     for (std::size_t m = 0; m < moduli.size(); ++m) {
-        evaluate_moduli(model_.materials[m], model_.points[m], moduli[m][0], moduli[m][1]);
+        evaluate_moduli(model_.materials[m], model_.points[m], view_of(model_.grid), moduli[m][0], moduli[m][1]);
         const double p_wave = *std::max_element(moduli[m][0].begin(), moduli[m][0].end());
         const double shear = *std::max_element(moduli[m][1].begin(), moduli[m][1].end());
         viscosity[m] = {settings_.viscosity * (p_wave - 2.0 * shear), settings_.viscosity * shear};

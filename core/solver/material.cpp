@@ -183,14 +183,16 @@ gault_status update_in_pieces(const Material& material, const Call& whole, std::
 }
 
 void fill_inputs(const Material& material, gault_points& p, const BatchView& view, Workspace& workspace, std::size_t n,
-                 double cell_length) {
+                 const GridView& grid) {
     for (std::size_t k = 0; k < material.inputs().size(); ++k) {
         double* column = workspace.column(Workspace::input + static_cast<int>(k));
         for (std::size_t i = 0; i < n; ++i) {
             switch (material.inputs()[k]) {
             case HostField::density: column[i] = material.density() / view.volume_ratio[i]; break;
             case HostField::volume_ratio: column[i] = view.volume_ratio[i]; break;
-            case HostField::characteristic_length: column[i] = cell_length; break;
+            case HostField::characteristic_length:
+                column[i] = std::sqrt(grid.x.length[view.column[i / page_slots]] * grid.y.length[view.cell_row]);
+                break;
             }
         }
         p.input[k] = column;
@@ -200,7 +202,7 @@ void fill_inputs(const Material& material, gault_points& p, const BatchView& vie
 } // namespace
 
 UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch, const BatchView& view,
-                           Workspace& workspace, const Moment& moment, double cell_length) {
+                           Workspace& workspace, const Moment& moment, const GridView& grid) {
     const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
     const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
     if (n == 0) return {};
@@ -208,7 +210,7 @@ UpdateFailure update_batch(const Material& material, Points& points, const Batch
     double* old[GAULT_MAX_STATE];
     for (int k = 0; k < material.state_components(); ++k) old[k] = workspace.column(Workspace::state_old + k);
     rotate_states(material, points.columns().state.data(), first, n, view, old);
-    fill_inputs(material, whole.p, view, workspace, n, cell_length);
+    fill_inputs(material, whole.p, view, workspace, n, grid);
 
     gault_error error;
     gault_status status = call(material, whole.p, error);
@@ -224,7 +226,7 @@ namespace {
 
 // Calls the model on every batch with a zero increment and the present stress; `prepare` adds outputs.
 template <class Prepare, class Function>
-void call_at_rest(const Material& material, Points& points, Prepare prepare, Function function) {
+void call_at_rest(const Material& material, Points& points, const GridView& grid, Prepare prepare, Function function) {
     std::size_t most = 0;
     for (const Batch& batch : points.layout().batches) most = std::max<std::size_t>(most, batch.pages * page_slots);
     Workspace workspace(most);
@@ -243,10 +245,12 @@ void call_at_rest(const Material& material, Points& points, Prepare prepare, Fun
             std::fill_n(view.gradient_old[k], n, k == 0 || k > 2 ? 1.0 : 0.0);
             std::fill_n(view.gradient_new[k], n, k == 0 || k > 2 ? 1.0 : 0.0);
         }
+        view.column = points.layout().page_column.data() + batch.first_page;
+        view.cell_row = batch.cell_row;
         Call whole(material, points, first, n, view, workspace, {0.0, 0.0});
         for (int k = 0; k < material.state_components(); ++k)
             std::copy_n(columns.state[k].data() + first, n, workspace.column(Workspace::state_old + k));
-        fill_inputs(material, whole.p, view, workspace, n, 1.0);
+        fill_inputs(material, whole.p, view, workspace, n, grid);
         prepare(whole.p, first, n, spare);
         gault_error error{-1, 0, -1, ""};
         if (function(whole.p, error) != GAULT_OK)
@@ -256,11 +260,11 @@ void call_at_rest(const Material& material, Points& points, Prepare prepare, Fun
 
 } // namespace
 
-void evaluate_moduli(const Material& material, Points& points, Column& modulus, Column& shear) {
+void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus, Column& shear) {
     modulus.resize(points.slots());
     shear.resize(points.slots());
     call_at_rest(
-        material, points,
+        material, points, grid,
         [&](gault_points& p, std::size_t first, std::size_t n, std::vector<Column>& spare) {
             p.modulus = modulus.data() + first;
             p.shear_modulus = shear.data() + first;
@@ -273,14 +277,14 @@ void evaluate_moduli(const Material& material, Points& points, Column& modulus, 
         });
 }
 
-void start_material(const Material& material, Points& points) {
+void start_material(const Material& material, Points& points, const GridView& grid) {
     for (const StateInfo& info : material.states())
         for (int k = 0; k < static_cast<int>(info.declared.shape); ++k)
             std::fill(points.columns().state[info.first + k].begin(), points.columns().state[info.first + k].end(),
                       info.declared.initial);
     if (!material.api().start) return;
     call_at_rest(
-        material, points, [](gault_points&, std::size_t, std::size_t, std::vector<Column>&) {},
+        material, points, grid, [](gault_points&, std::size_t, std::size_t, std::vector<Column>&) {},
         [&](gault_points& p, gault_error& error) {
             return material.api().start(material.instance().self(), &p, &error);
         });

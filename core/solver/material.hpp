@@ -78,12 +78,12 @@ void attach_workspace(const Material& material, Workspace& workspace, BatchView&
 // Rotates tensor and vector states, fills the inputs, and calls the model; on RETRY the increment is divided. New stress
 // and states are in the points' columns afterwards.
 UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch, const BatchView& view,
-                           Workspace& workspace, const Moment& moment, double cell_length);
+                           Workspace& workspace, const Moment& moment, const GridView& grid);
 
 // The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` have points.slots() entries.
-void evaluate_moduli(const Material& material, Points& points, Column& modulus, Column& shear);
+void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus, Column& shear);
 
 // Lets the model set its states from the initial stress. RunError when it is not admissible.
-void start_material(const Material& material, Points& points);
+void start_material(const Material& material, Points& points, const GridView& grid);
 
 } // namespace gault::core

@@ -94,13 +94,22 @@ double Model::vertical_stress(const Scene& scene, int column, double y) const {
     return stress;
 }
 
-SoilBehind Model::behind(const Scene& scene, const std::array<double, 2>& at) {
-    const int column = grid.axis(0).cell_of(at[0]), row = grid.axis(1).cell_of(at[1]);
-    const int m = material_of_cell[static_cast<std::size_t>(row) * grid.axis(0).cells() + column];
-    Column modulus, shear;
-    evaluate_moduli(materials[m], points[m], modulus, shear);
-    const double vertical = -vertical_stress(scene, column, at[1]), rho = materials[m].density();
-    return {std::sqrt(rho * modulus[0]), std::sqrt(rho * shear[0]), shear[0], {scene.initial_stress.k0 * vertical, vertical, 0.0}};
+std::function<SoilBehind(const std::array<double, 2>&)> Model::behind(const Scene& scene) {
+    std::vector<std::array<Column, 2>> moduli(materials.size());
+    for (std::size_t m = 0; m < moduli.size(); ++m)
+        evaluate_moduli(materials[m], points[m], view_of(grid), moduli[m][0], moduli[m][1]);
+    return [this, &scene, moduli = std::move(moduli)](const std::array<double, 2>& at) -> SoilBehind {
+        const int column = grid.axis(0).cell_of(at[0]), row = grid.axis(1).cell_of(at[1]);
+        const std::size_t cell = static_cast<std::size_t>(row) * grid.axis(0).cells() + column;
+        const int m = material_of_cell[cell];
+        const Layout& layout = points[m].layout();
+        int page = layout.batches[layout.batch_of_cell[cell]].first_page; // the cell's first
+        while (layout.page_column[page] != column) ++page;
+        const std::size_t slot = static_cast<std::size_t>(page) * page_slots;
+        const double vertical = -vertical_stress(scene, column, at[1]), rho = materials[m].density();
+        const double p_wave = moduli[m][0][slot], shear = moduli[m][1][slot];
+        return {std::sqrt(rho * p_wave), std::sqrt(rho * shear), shear, {scene.initial_stress.k0 * vertical, vertical, 0.0}};
+    };
 }
 
 Model build_model(const Scene& scene) {
@@ -156,7 +165,7 @@ Model build_model(const Scene& scene) {
             for (int k = 0; k < 5; ++k) s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
         model.points.emplace_back(std::move(s.columns), s.cell, std::move(s.identity),
                                   LayoutRequest{columns, grid.axis(1).cells(), degree, updated});
-        start_material(model.materials[m], model.points[m]);
+        start_material(model.materials[m], model.points[m], view_of(grid));
     }
     return model;
 }

@@ -7,6 +7,7 @@
 #include "core/solver/material.hpp"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace gault::core {
@@ -20,7 +21,8 @@ struct Model {
 
     // Initial vertical stress (axis y) and its ratio to the others, compression positive, Pa.
     double vertical_stress(const Scene& scene, int column, double y) const;
-    SoilBehind behind(const Scene& scene, const std::array<double, 2>& at); // of the soil at a reference position
+    // Answers for the soil at a reference position, as long as the points lie where they began.
+    std::function<SoilBehind(const std::array<double, 2>&)> behind(const Scene& scene);
 };
 
 Model build_model(const Scene& scene);

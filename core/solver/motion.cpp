@@ -41,11 +41,11 @@ bool Motion::plan_is_stale() const {
     return false;
 }
 
-GridView Motion::grid_view() const {
+GridView view_of(const Grid& grid) {
     const auto axis = [](const Axis& a) {
         return AxisView{a.origin().data(), a.length().data(), a.inverse_length().data(), a.left().data(), a.right().data()};
     };
-    return {axis(grid_.axis(0)), axis(grid_.axis(1)), grid_.layout().row};
+    return {axis(grid.axis(0)), axis(grid.axis(1)), grid.layout().row};
 }
 
 BatchView Motion::view(const Task& task) {
@@ -79,11 +79,10 @@ BatchView Motion::view(const Task& task) {
 
 UpdateFailure Motion::update_stress(const Task& task, const BatchView& view, Workspace& workspace, const Moment& moment) {
     const Batch& batch = points_[task.material].layout().batches[task.batch];
-    const double length = std::sqrt(grid_.axis(0).length()[batch.first_column] * grid_.axis(1).length()[batch.cell_row]);
     static std::mutex legacy; // models with global state are called one at a time
     std::unique_lock<std::mutex> alone(legacy, std::defer_lock);
     if (materials_[task.material].one_at_a_time()) alone.lock();
-    return update_batch(materials_[task.material], points_[task.material], batch, view, workspace, moment, length);
+    return update_batch(materials_[task.material], points_[task.material], batch, view, workspace, moment, grid_view());
 }
 
 void Motion::clear_patch(const Task& task, int components) {

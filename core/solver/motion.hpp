@@ -42,6 +42,8 @@ struct PointRecord { // of a point, for results
     double volume;
 };
 
+GridView view_of(const Grid& grid);
+
 class Motion {
   public:
     Motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads);
@@ -92,7 +94,7 @@ class Motion {
     };
     void plan();               // after a change of layout
     bool plan_is_stale() const;
-    GridView grid_view() const;
+    GridView grid_view() const { return view_of(grid_); }
     BatchView view(const Task& task); // without workspace
     // Sums the patches into nodal fields, in a fixed order.
     void reduce(const std::vector<Column*>& fields);
