@@ -21,6 +21,7 @@ struct PointColumns {
     std::array<Column, 2> reference;  // updated frame: initial position, m
     std::array<Column, 2> velocity;   // updated frame, m/s
     Column mass;                      // updated frame, kg
+    std::array<Column, 4> strain;      // updated frame with viscosity: of the last step, xx yy zz xy
     std::array<Column, 5> deformation; // updated frame, where a material wants F: xx xy yx yy zz
 
     template <class F> void each(F f) { visit(*this, f); } // every column, in use or not
@@ -35,6 +36,7 @@ struct PointColumns {
         for (auto& c : self.reference) f(c);
         for (auto& c : self.velocity) f(c);
         f(self.mass);
+        for (auto& c : self.strain) f(c);
         for (auto& c : self.deformation) f(c);
     }
 };

@@ -168,6 +168,7 @@ void Run::summary(const char* status, const std::string& message) {
                         {"title", scene_.title},
                         {"program_version", options_.program_version},
                         {"plan", scene_.chosen},
+                        {"cautions", cautions(scene_)},
                         {"counts",
                          {{"points", point_count()},
                           {"cells", static_cast<int64_t>(model_.grid.axis(0).cells()) * model_.grid.axis(1).cells()},
@@ -217,6 +218,7 @@ void Run::report() const {
 }
 
 Outcome Run::go() {
+    for (const std::string& caution : cautions(scene_)) log::warn("{}", caution);
     Interrupts interrupts;
     Progress progress(point_count(), options_.quiet);
     try {
@@ -257,6 +259,19 @@ Outcome Run::go() {
 
 } // namespace
 
+std::vector<std::string> cautions(const Scene& scene) {
+    std::vector<std::string> all;
+    if (scene.frame == Frame::updated && scene.basis == Basis::linear)
+        all.push_back("caution: with grid.basis linear, forces jump where points cross cells; take quadratic, or model.frame total");
+    if (scene.points_per_cell == 1)
+        all.push_back("caution: one point a cell passes no motion whose sign alternates from node to node, so forces of that "
+                      "shape are never balanced; take 4 points");
+    if (scene.placement == Placement::uniform && scene.points_per_cell == 4 && scene.basis == Basis::quadratic)
+        all.push_back("caution: four uniform points do not integrate quadratic functions, so surface loads and inertia disagree; "
+                      "take points.placement gauss, or 9 points");
+    return all;
+}
+
 int threads_that_pay(std::size_t points, int wanted) {
     const int cores = std::max(1u, std::thread::hardware_concurrency());
     const int useful = static_cast<int>(std::max<std::size_t>(1, points / 8192));
@@ -273,6 +288,7 @@ std::vector<std::string> check_scene(const Scene& scene) {
     columns.insert(columns.end(), program.columns().begin(), program.columns().end());
     Verification verification(scene, columns);
     std::vector<std::string> lines = scene.chosen;
+    for (std::string& caution : cautions(scene)) lines.push_back(std::move(caution));
     lines.insert(lines.end(), model.description.begin(), model.description.end());
     for (std::size_t m = 0; m < model.materials.size(); ++m)
         lines.push_back(fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));

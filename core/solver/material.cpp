@@ -58,7 +58,8 @@ double* Workspace::column(int k) {
 }
 
 void attach_workspace(const Material& material, Workspace& workspace, BatchView& view) {
-    for (int k = 0; k < 4; ++k) view.strain[k] = workspace.column(Workspace::strain + k);
+    for (int k = 0; k < 4; ++k)
+        if (!view.strain[k]) view.strain[k] = workspace.column(Workspace::strain + k);
     for (int k = 0; k < 6; ++k) view.stress_old[k] = workspace.column(Workspace::stress_old + k);
     for (int k = 0; k < 5; ++k) view.flux[k] = workspace.column(Workspace::flux + k);
     for (int k = 0; k < 2; ++k)

@@ -161,6 +161,8 @@ Model build_model(const Scene& scene) {
         s.columns.state.assign(model.materials[m].state_components(), Column(n));
         if (updated)
             for (Column& c : s.columns.velocity) c.resize(n);
+        if (updated && scene.solver.viscosity > 0.0)
+            for (Column& c : s.columns.strain) c.resize(n);
         if (updated && model.materials[m].finite_strain())
             for (int k = 0; k < 5; ++k) s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
         model.points.emplace_back(std::move(s.columns), s.cell, std::move(s.identity),

@@ -69,6 +69,7 @@ BatchView Motion::view(const Task& task) {
     v.measure = at(columns.measure);
     v.mass = at(columns.mass);
     for (int k = 0; k < 6; ++k) v.stress[k] = at(columns.stress[k]);
+    for (int k = 0; k < 4; ++k) v.strain[k] = at(columns.strain[k]);
     for (int k = 0; k < 5; ++k) v.deformation[k] = at(columns.deformation[k]);
     if (!viscosity_.empty()) {
         v.viscous_lame = viscosity_[task.material][0];

@@ -206,6 +206,7 @@ void UpdatedMotion::stiffness(const VectorField& v, const std::vector<std::array
     const StrainInput in{{v.c[0].data(), v.c[1].data()}, {nullptr, nullptr}, dt, strain_limit, true};
     for (const Task& task : tasks_) {
         BatchView probe = view(task);
+        for (double*& strain : probe.strain) strain = nullptr; // the points' own stays
         attach_workspace(materials_[task.material], workspaces_[0], probe);
         kernels_.updated_strain(grid, probe, in, false, false);
         elastic_stress(moduli[task.material], task, dt, probe, workspaces_[0]);

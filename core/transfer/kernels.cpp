@@ -330,10 +330,10 @@ void updated_force(const GridView& grid, const BatchView& batch) {
         const auto wx = weights<Degree>(grid.x, column, at.xi);
         const auto wy = weights<Degree>(grid.y, batch.cell_row, at.eta);
         const Pack volume = Pack::load(batch.measure + slot), mass = Pack::load(batch.mass + slot);
-        const Pack sxx = volume * Pack::load(batch.stress[0] + slot), syy = volume * Pack::load(batch.stress[1] + slot);
-        const Pack sxy = volume * Pack::load(batch.stress[3] + slot);
+        const PlaneStress s = acting_stress(batch, slot);
+        const Pack sxx = volume * s.xx, syy = volume * s.yy, sxy = volume * s.xy;
         Pack hoop = 0.0;
-        if constexpr (Axisymmetric) hoop = volume * Pack::load(batch.stress[2] + slot) / at.x;
+        if constexpr (Axisymmetric) hoop = volume * s.zz / at.x;
         for (int a = 0; a <= Degree; ++a) {
             Pack xs = sxx * wx.slope[a];
             const Pack xv = sxy * wx.value[a], ys = sxy * wx.slope[a], yv = syy * wx.value[a], m = mass * wx.value[a];

@@ -40,7 +40,7 @@ struct BatchView {
     double *deformation[5]; // updated frame: F_xx F_xy F_yx F_yy F_zz where a material wants it, else null
 
     // Workspace of the batch, one value a slot.
-    double *strain[4];     // out: xx yy zz xy
+    double *strain[4];     // out: xx yy zz xy (updated frame with viscosity: a column of the points)
     double *stress_old[6]; // out: rotated
     double *rotation[2];   // out: cosine and sine of the step's rotation, or null
     double *flux[5];       // total frame: area vectors of the deformed point, xx xy yx yy and hoop
