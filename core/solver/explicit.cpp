@@ -45,6 +45,7 @@ void ExplicitSolver::refresh_limit() {
     std::vector<std::array<Column, 2>> moduli(model_.materials.size());
     std::vector<std::array<double, 2>> viscosity(model_.materials.size());
     for (std::size_t m = 0; m < moduli.size(); ++m) {
+        if (model_.points[m].count() == 0) continue;
         evaluate_moduli(model_.materials[m], model_.points[m], view_of(model_.grid), moduli[m][0], moduli[m][1]);
         const double p_wave = *std::max_element(moduli[m][0].begin(), moduli[m][0].end());
         const double shear = *std::max_element(moduli[m][1].begin(), moduli[m][1].end());
@@ -99,12 +100,13 @@ void ExplicitSolver::integrate(double dt, const VectorField& internal) {
 
 void ExplicitSolver::account(double dt) {
     const Column& mass = motion_->mass();
+    const VectorField& straining = motion_->stress_first() ? velocity_before_ : velocity_;
     each_row([&](int j, std::size_t begin, std::size_t end) {
         Energies row;
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = begin; n < end; ++n) {
-                const double v = velocity_.c[k][n], mean = 0.5 * (v + velocity_before_.c[k][n]);
-                row.internal -= 0.5 * dt * (internal_before_.c[k][n] + internal_.c[k][n]) * v;
+                const double mean = 0.5 * (velocity_.c[k][n] + velocity_before_.c[k][n]);
+                row.internal -= 0.5 * dt * (internal_before_.c[k][n] + internal_.c[k][n]) * straining.c[k][n];
                 row.external += dt * ((traction_.c[k][n] + mass[n] * gravity_[k] + reaction_.c[k][n]) * mean);
                 row.damping += dt * damping_.c[k][n] * mean;
             }
@@ -122,20 +124,20 @@ void ExplicitSolver::step(double dt) {
     boundaries_.constrain(*motion_, time_ + dt, dt, fixed_, value_);
     std::swap(internal_, internal_before_);
     const Moment moment{time_ + dt, dt};
+    std::swap(velocity_, velocity_before_);
     if (motion_->stress_first()) {
         motion_->map_velocity(velocity_);
         impose_velocity();
         motion_->deform(velocity_, moment);
         motion_->forces(internal_);
-        std::swap(velocity_, velocity_before_);
         integrate(dt, internal_);
+        std::swap(velocity_, velocity_before_);
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = 0; n < velocity_.c[k].size(); ++n)
                 velocity_.c[k][n] = velocity_before_.c[k][n] + dt * acceleration_.c[k][n];
         impose_velocity();
         motion_->advance(acceleration_, velocity_, dt);
     } else {
-        std::swap(velocity_, velocity_before_);
         integrate(dt, internal_before_);
         motion_->accelerate(acceleration_, dt, velocity_);
         impose_velocity();
