@@ -19,6 +19,9 @@ hid_t check(hid_t id, const std::string& what) {
 }
 
 Hdf5Handle open(const fs::path& file) {
+    // As the writer does before it uses the library: a fork of this process may go on with a full disk.
+    static const bool without_clean_up = H5dont_atexit() >= 0; // or the writer was first
+    (void)without_clean_up;
     return {check(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), file.string()), H5Fclose};
 }
 
