@@ -24,10 +24,12 @@ class Interrupts { // SIGINT and SIGTERM ask for an end while this lives
   public:
     Interrupts() {
         interrupted = 0;
-        for (const int s : {SIGINT, SIGTERM}) std::signal(s, [](int) { interrupted = 1; });
+        for (const int s : {SIGINT, SIGTERM})
+            std::signal(s, [](int) { interrupted = 1; });
     }
     ~Interrupts() {
-        for (const int s : {SIGINT, SIGTERM}) std::signal(s, SIG_DFL);
+        for (const int s : {SIGINT, SIGTERM})
+            std::signal(s, SIG_DFL);
     }
 };
 
@@ -40,15 +42,17 @@ class Run {
   public:
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene), options_(options), model_(build_model(scene)),
-          threads_(threads_that_pay(point_count(), options.threads)), solver_(scene, model_, threads_), program_(scene, solver_),
-          verification_(scene, columns()), writer_(options.folder, options.replace, columns(), provenance(), point_count()) {}
+          threads_(threads_that_pay(point_count(), options.threads)), solver_(scene, model_, threads_),
+          program_(scene, solver_), verification_(scene, columns()),
+          writer_(options.folder, options.replace, columns(), provenance(), point_count()) {}
 
     Outcome go();
 
   private:
     std::size_t point_count() const {
         std::size_t n = 0;
-        for (const Points& p : model_.points) n += p.count();
+        for (const Points& p : model_.points)
+            n += p.count();
         return n;
     }
     std::vector<ColumnInfo> columns() const;
@@ -85,6 +89,12 @@ std::vector<ColumnInfo> Run::columns() const {
     all.push_back({"kinetic_ratio", "1", "Kinetic energy over internal energy"});
     all.push_back({"energy_error", "1", "Imbalance of energy over its largest part"});
     all.push_back({"largest_velocity", "m/s", "Of the grid nodes"});
+    for (std::size_t k = 0; k < all.size(); ++k)
+        for (std::size_t other = 0; other < k; ++other)
+            if (all[k].name == all[other].name)
+                throw InputError(scene_.program.parameters.where,
+                                 fmt::format("program '{}' records '{}', a column that the history has already",
+                                             scene_.program.component->declaration->name, all[k].name));
     return all;
 }
 
@@ -97,10 +107,13 @@ Provenance Run::provenance() const {
                            {"file", c->file.string()},
                            {"sha256", sha256_of_file(c->file)}});
     };
-    for (const MaterialUse& m : scene_.materials) add(m.model.component);
-    for (const BoundaryUse& b : scene_.boundaries) add(b.model.component);
+    for (const MaterialUse& m : scene_.materials)
+        add(m.model.component);
+    for (const BoundaryUse& b : scene_.boundaries)
+        add(b.model.component);
     add(scene_.program.component);
-    for (const auto& o : scene_.observers) add(o.model.component);
+    for (const auto& o : scene_.observers)
+        add(o.model.component);
     return {scene_.yaml,
             {{"program", "gault " + options_.program_version},
              {"command", options_.command_line},
@@ -122,7 +135,8 @@ void Run::row() {
     const Energies energies = solver_.energies();
     std::vector<double> values{solver_.time()};
     values.insert(values.end(), program_.record().begin(), program_.record().end());
-    for (const double v : {static_cast<double>(solver_.steps()), energies.ratio(), energies.error(), solver_.largest_velocity()})
+    for (const double v : {static_cast<double>(solver_.steps()), energies.ratio(), energies.error(),
+                           solver_.largest_velocity()})
         values.push_back(v);
     writer_.row(values);
 }
@@ -148,7 +162,8 @@ void Run::frames_due(bool last) {
         verification_.at(profile.measure, measured(profile.measure), solver_.motion());
     const auto& values = scene_.frames.values;
     bool due = last;
-    while (next_frame_ < values.size() && measured(scene_.frames.measure) >= values[next_frame_] * (1.0 - 1e-9)) {
+    while (next_frame_ < values.size() &&
+           measured(scene_.frames.measure) >= values[next_frame_] * (1.0 - 1e-9)) {
         due = true;
         ++next_frame_;
     }
@@ -157,35 +172,38 @@ void Run::frames_due(bool last) {
 
 std::string Run::advice() const {
     if (scene_.solver.time_step_factor > 1.0)
-        return fmt::format("solver.time_step_factor is {:g}: above 1 the step exceeds the stability limit of {:.4g} s",
-                           scene_.solver.time_step_factor, solver_.stability_limit());
-    return fmt::format("try a smaller solver.time_step_factor (now {:g}) or a gentler load", scene_.solver.time_step_factor);
+        return fmt::format(
+            "solver.time_step_factor is {:g}: above 1 the step exceeds the stability limit of {:.4g} s",
+            scene_.solver.time_step_factor, solver_.stability_limit());
+    return fmt::format("try a smaller solver.time_step_factor (now {:g}) or a gentler load",
+                       scene_.solver.time_step_factor);
 }
 
 void Run::summary(const char* status, const std::string& message) {
     const double wall = seconds_since(start_);
-    nlohmann::json s = {{"status", status},
-                        {"title", scene_.title},
-                        {"program_version", options_.program_version},
-                        {"plan", scene_.chosen},
-                        {"cautions", cautions(scene_)},
-                        {"counts",
-                         {{"points", point_count()},
-                          {"cells", static_cast<int64_t>(model_.grid.axis(0).cells()) * model_.grid.axis(1).cells()},
-                          {"steps", solver_.steps()},
-                          {"constitutive_updates", solver_.motion().updates()},
-                          {"frames", frames_}}},
-                        {"time", solver_.time()},
-                        {"stable_step_s", solver_.stability_limit()},
-                        {"energy",
-                         {{"kinetic_ratio", solver_.energies().ratio()},
-                          {"largest_kinetic_ratio", largest_kinetic_ratio()},
-                          {"energy_error", solver_.energies().error()}}},
-                        {"wall_seconds", {{"total", wall}, {"stepping", stepping_}, {"other", wall - stepping_}}},
-                        {"threads", threads_},
-                        {"derived", derived_},
-                        {"reference", reference_},
-                        {"provenance", provenance().text}};
+    nlohmann::json s = {
+        {"status", status},
+        {"title", scene_.title},
+        {"program_version", options_.program_version},
+        {"plan", scene_.chosen},
+        {"cautions", cautions(scene_)},
+        {"counts",
+         {{"points", point_count()},
+          {"cells", static_cast<int64_t>(model_.grid.axis(0).cells()) * model_.grid.axis(1).cells()},
+          {"steps", solver_.steps()},
+          {"constitutive_updates", solver_.motion().updates()},
+          {"frames", frames_}}},
+        {"time", solver_.time()},
+        {"stable_step_s", solver_.stability_limit()},
+        {"energy",
+         {{"kinetic_ratio", solver_.energies().ratio()},
+          {"largest_kinetic_ratio", largest_kinetic_ratio()},
+          {"energy_error", solver_.energies().error()}}},
+        {"wall_seconds", {{"total", wall}, {"stepping", stepping_}, {"other", wall - stepping_}}},
+        {"threads", threads_},
+        {"derived", derived_},
+        {"reference", reference_},
+        {"provenance", provenance().text}};
     if (!message.empty()) s["message"] = message;
     writer_.summary(s);
 }
@@ -200,25 +218,33 @@ double Run::largest_kinetic_ratio() const {
 }
 
 void Run::report() const {
-    log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver_.steps(), point_count(), seconds_since(start_),
-              stepping_ > 0.0 ? static_cast<double>(solver_.steps()) * static_cast<double>(point_count()) / stepping_ * 1e-6 : 0.0);
-    log::info("kinetic energy at most {:.2g} % of the internal energy after the first {:g} % of the time; energy error {:.2g} %",
+    log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver_.steps(), point_count(),
+              seconds_since(start_),
+              stepping_ > 0.0 ? static_cast<double>(solver_.steps()) * static_cast<double>(point_count()) /
+                                    stepping_ * 1e-6
+                              : 0.0);
+    log::info("kinetic energy at most {:.2g} % of the internal energy after the first {:g} % of the time; "
+              "energy error {:.2g} %",
               100.0 * largest_kinetic_ratio(), 100.0 * start_share, 100.0 * solver_.energies().error());
     if (reference_.contains("curves"))
         for (const auto& c : reference_["curves"])
             log::info("{}: largest relative error {:.4f} % at {} = {:.4g}", c["y"].get<std::string>(),
-                      100.0 * c["largest_relative_error"].get<double>(), c["x"].get<std::string>(), c["largest_at"].get<double>());
+                      100.0 * c["largest_relative_error"].get<double>(), c["x"].get<std::string>(),
+                      c["largest_at"].get<double>());
     if (reference_.contains("profiles"))
         for (const auto& p : reference_["profiles"])
-            log::info("{} = {:g}: L2 error of raw sigma_r {:.4f} %, sigma_theta {:.4f} %", p["measure"].get<std::string>(),
-                      p["value"].get<double>(), 100.0 * p["sigma_r_l2"].get<double>(), 100.0 * p["sigma_theta_l2"].get<double>());
+            log::info("{} = {:g}: L2 error of raw sigma_r {:.4f} %, sigma_theta {:.4f} %",
+                      p["measure"].get<std::string>(), p["value"].get<double>(),
+                      100.0 * p["sigma_r_l2"].get<double>(), 100.0 * p["sigma_theta_l2"].get<double>());
     for (const auto& [name, results] : derived_.items())
-        for (const auto& [key, value] : results.items()) log::info("{} {}: {:.6g}", name, key, value.get<double>());
+        for (const auto& [key, value] : results.items())
+            log::info("{} {}: {:.6g}", name, key, value.get<double>());
     log::info("results in {}", writer_.folder().string());
 }
 
 Outcome Run::go() {
-    for (const std::string& caution : cautions(scene_)) log::warn("{}", caution);
+    for (const std::string& caution : cautions(scene_))
+        log::warn("{}", caution);
     Interrupts interrupts;
     Progress progress(point_count(), options_.quiet);
     try {
@@ -234,8 +260,9 @@ Outcome Run::go() {
             frames_due(false);
             if (progress.due(solver_.steps())) {
                 const auto& shown = program_.columns();
-                progress.show({solver_.steps(), solver_.time(), answer.next,
-                               shown.empty() ? "" : fmt::format("{} {:.4g}", shown[0].name, program_.record()[0])});
+                progress.show(
+                    {solver_.steps(), solver_.time(), answer.next,
+                     shown.empty() ? "" : fmt::format("{} {:.4g}", shown[0].name, program_.record()[0])});
             }
         }
         stepping_ = seconds_since(stepping);
@@ -246,8 +273,13 @@ Outcome Run::go() {
         }
         summary(interrupted ? "interrupted" : "done", "");
         writer_.finish();
+    } catch (const InputError& error) { // two boundaries that a program drives against each other
+        summary("failed", error.what());
+        writer_.finish();
+        throw;
     } catch (const RunError& error) {
-        const std::string message = fmt::format("step {}, t = {:.6g} s: {}; {}", solver_.steps(), solver_.time(), error.what(), advice());
+        const std::string message = fmt::format("step {}, t = {:.6g} s: {}; {}", solver_.steps(),
+                                                solver_.time(), error.what(), advice());
         summary("failed", message);
         writer_.finish();
         throw RunError(message);
@@ -262,12 +294,16 @@ Outcome Run::go() {
 std::vector<std::string> cautions(const Scene& scene) {
     std::vector<std::string> all;
     if (scene.frame == Frame::updated && scene.basis == Basis::linear)
-        all.push_back("caution: with grid.basis linear, forces jump where points cross cells; take quadratic, or model.frame total");
+        all.push_back("caution: with grid.basis linear, forces jump where points cross cells; take "
+                      "quadratic, or model.frame total");
     if (scene.points_per_cell == 1)
-        all.push_back("caution: one point a cell passes no motion whose sign alternates from node to node, so forces of that "
+        all.push_back("caution: one point a cell passes no motion whose sign alternates from node to node, "
+                      "so forces of that "
                       "shape are never balanced; take 4 points");
-    if (scene.placement == Placement::uniform && scene.points_per_cell == 4 && scene.basis == Basis::quadratic)
-        all.push_back("caution: four uniform points do not integrate quadratic functions, so surface loads and inertia disagree; "
+    if (scene.placement == Placement::uniform && scene.points_per_cell == 4 &&
+        scene.basis == Basis::quadratic)
+        all.push_back("caution: four uniform points do not integrate quadratic functions, so surface loads "
+                      "and inertia disagree; "
                       "take points.placement gauss, or 9 points");
     return all;
 }
@@ -278,7 +314,9 @@ int threads_that_pay(std::size_t points, int wanted) {
     return wanted > 0 ? wanted : std::min(cores, useful);
 }
 
-Outcome run_scene(const Scene& scene, const RunOptions& options) { return Run(scene, options).go(); }
+Outcome run_scene(const Scene& scene, const RunOptions& options) {
+    return Run(scene, options).go();
+}
 
 std::vector<std::string> check_scene(const Scene& scene) {
     Model model = build_model(scene);
@@ -288,11 +326,14 @@ std::vector<std::string> check_scene(const Scene& scene) {
     columns.insert(columns.end(), program.columns().begin(), program.columns().end());
     Verification verification(scene, columns);
     std::vector<std::string> lines = scene.chosen;
-    for (std::string& caution : cautions(scene)) lines.push_back(std::move(caution));
+    for (std::string& caution : cautions(scene))
+        lines.push_back(std::move(caution));
     lines.insert(lines.end(), model.description.begin(), model.description.end());
     for (std::size_t m = 0; m < model.materials.size(); ++m)
-        lines.push_back(fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));
-    for (std::string& line : solver.boundaries().description()) lines.push_back(std::move(line));
+        lines.push_back(
+            fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));
+    for (std::string& line : solver.boundaries().description())
+        lines.push_back(std::move(line));
     const double dt = solver.allowed_step();
     lines.push_back(fmt::format("stable step {:.4g} s, used {:.4g} s", solver.stability_limit(), dt));
     return lines;

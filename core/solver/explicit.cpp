@@ -34,6 +34,7 @@ ExplicitSolver::ExplicitSolver(const Scene& scene, Model& model, int threads)
         initial_radius_[side] = boundaries_.surface(side).mean_radius();
     }
     motion_->forces(internal_);
+    boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_); // conditions that contradict each other are refused here
 }
 
 double ExplicitSolver::allowed_step() {

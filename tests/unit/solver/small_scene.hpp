@@ -11,6 +11,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace gault::core::test {
@@ -153,6 +155,32 @@ class TestBoundary : public TestComponent {
     gault_boundary_api api_{};
 };
 
+class TestProgram : public TestComponent {
+  public:
+    std::vector<gault_signal> measures, controls, memories, records;
+    std::function<gault_status(gault_step&, gault_error&)> advance;
+
+    TestProgram() : TestComponent(GAULT_PROGRAM, "test_program") {}
+
+    ComponentUse use() {
+        const auto count = [](const auto& signals) { return static_cast<uint32_t>(signals.size()); };
+        signals_ = {sizeof signals_, 0,
+                    measures.data(), controls.data(),
+                    memories.data(), records.data(),
+                    count(measures), count(controls),
+                    count(memories), count(records)};
+        api_ = {sizeof api_, 0, &signals_, nullptr, nullptr};
+        api_.advance = [](const void* self, gault_step* s, gault_error* e) noexcept {
+            return static_cast<const TestProgram*>(self)->advance(*s, *e);
+        };
+        return TestComponent::use(&api_);
+    }
+
+  private:
+    gault_program_signals signals_{};
+    gault_program_api api_{};
+};
+
 struct Shape {
     Symmetry symmetry = Symmetry::plane_strain;
     Frame frame = Frame::total;
@@ -186,6 +214,11 @@ class SmallScene {
     }
     void add(TestBoundary& boundary, std::vector<int> sides) {
         scene.boundaries.push_back({std::move(sides), boundary.use()});
+    }
+
+    void add(TestProgram& program, std::optional<int> side = std::nullopt) {
+        scene.program = program.use();
+        scene.program_surface = side;
     }
 
     // Rollers on sides, a uniform follower pressure on others.
