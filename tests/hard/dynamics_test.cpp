@@ -1,0 +1,155 @@
+#include "tests/hard/hard_scene.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <complex>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <unistd.h>
+
+namespace gault::core::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// ---- breathing ring -----------------------------------------------------------------------------------
+
+constexpr double first_mode = 433.95, second_mode = 1090.1; // Hz, free-free
+
+struct Signal {
+    std::vector<double> time, value;
+};
+
+// Amplitude at a frequency over a window, seen through a Hann window: other modes are 60 dB down.
+double amplitude(const Signal& s, double frequency, double from, double to) {
+    std::complex<double> sum = 0.0;
+    double weights = 0.0;
+    for (std::size_t i = 1; i < s.time.size(); ++i) {
+        const double t = s.time[i];
+        if (t < from || t > to) continue;
+        const double weight =
+            (s.time[i] - s.time[i - 1]) * std::pow(std::sin(pi * (t - from) / (to - from)), 2);
+        sum += weight * s.value[i] * std::polar(1.0, -2.0 * pi * frequency * t);
+        weights += weight;
+    }
+    return 2.0 * std::abs(sum) / weights;
+}
+
+// The frequency of the largest amplitude near a guess, by golden section.
+double peak(const Signal& s, double guess, double from, double to) {
+    double low = 0.97 * guess, high = 1.03 * guess;
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    for (int n = 0; n < 60; ++n) {
+        const double a = high - golden * (high - low), b = low + golden * (high - low);
+        (amplitude(s, a, from, to) > amplitude(s, b, from, to) ? high : low) =
+            amplitude(s, a, from, to) > amplitude(s, b, from, to) ? b : a;
+    }
+    return 0.5 * (low + high);
+}
+
+class BreathingRing : public testing::TestWithParam<const char*> {
+  protected:
+    std::vector<Override> with(std::vector<Override> more = {}) const {
+        more.push_back({"model.frame", GetParam()});
+        return more;
+    }
+};
+INSTANTIATE_TEST_SUITE_P(Frames, BreathingRing, testing::Values("total", "updated"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+TEST_P(BreathingRing, RingsAtItsNaturalFrequencyWithoutLoss) {
+    HardScene s("hard/breathing", with());
+    Signal wall;
+    s.run([&] {
+        wall.time.push_back(s.solver.time());
+        wall.value.push_back(s.solver.measure("displacement", low_x).value());
+    });
+    const double period = 1.0 / first_mode, start = 12e-3; // the pressure is gone at 11 ms
+    const double frequency = peak(wall, first_mode, start, start + 20 * period);
+    EXPECT_NEAR(frequency, first_mode, 0.005 * first_mode);
+    EXPECT_NEAR(peak(wall, second_mode, start, start + 20 * period), second_mode, 0.005 * second_mode);
+    const double early = amplitude(wall, frequency, start, start + 10 * period);
+    const double late = amplitude(wall, frequency, start + 10 * period, start + 20 * period);
+    EXPECT_NEAR(late, early, 0.01 * early); // 10 periods apart
+    EXPECT_GT(early, 1e-8);                 // m
+}
+
+TEST_P(BreathingRing, IsStableBelowTheLimitAndKeepsItsEnergy) {
+    HardScene s("hard/breathing", with({{"solver.time_step_factor", "0.95"}}));
+    std::vector<std::array<double, 3>> energies; // time, kinetic + internal, kinetic
+    s.run([&] {
+        const Energies e = s.solver.energies();
+        energies.push_back({s.solver.time(), e.kinetic + e.internal, e.kinetic});
+    });
+    const auto mean = [&](double from, double to) {
+        double sum = 0.0, span = 0.0;
+        for (std::size_t i = 1; i < energies.size(); ++i) {
+            if (energies[i][0] < from || energies[i][0] > to) continue;
+            sum += energies[i][1] * (energies[i][0] - energies[i - 1][0]);
+            span += energies[i][0] - energies[i - 1][0];
+        }
+        return sum / span;
+    };
+    const double period = 1.0 / first_mode, early = mean(12e-3, 12e-3 + 10 * period);
+    EXPECT_GT(early, 0.0);
+    EXPECT_NEAR(mean(12e-3 + 10 * period, 12e-3 + 20 * period), early, 1e-3 * early);
+    double largest = 0.0;
+    for (const auto& e : energies)
+        largest = std::max(largest, e[1]);
+    EXPECT_LT(largest, 1.0) << "of some mJ";
+}
+
+TEST_P(BreathingRing, StopsWithAnExplanationBeyondTheLimit) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("gault-hard-" + std::to_string(getpid()));
+    const Scene scene = scene_of("hard/breathing", with(), [](Scene& s) { s.solver.time_step_factor = 1.1; });
+    RunOptions options;
+    options.folder = folder;
+    options.quiet = true;
+    std::string text;
+    try {
+        run_scene(scene, options);
+    } catch (const RunError& error) {
+        text = error.what();
+    }
+    EXPECT_TRUE(text.starts_with("step ")) << text;
+    for (const char* part : {", t = ", "of 'soil' at (",
+                             "solver.time_step_factor is 1.1: above 1 the step exceeds the stability limit"})
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    std::stringstream history, summary;
+    history << std::ifstream(folder / "history.csv").rdbuf();
+    summary << std::ifstream(folder / "summary.json").rdbuf();
+    std::filesystem::remove_all(folder);
+    EXPECT_GT(history.str().size(), 100u);
+    EXPECT_EQ(history.str().find("nan"), std::string::npos);
+    EXPECT_EQ(history.str().find("inf"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(summary.str())["status"], "failed");
+}
+
+// ---- a wall that starts at once -----------------------------------------------------------------------
+
+// The mean pressure on the wall until its wave has gone a distance s: rho c v (1 + s / 12 a), the wave
+// equation's expansion for lame = G to first order in s / a; from the work done on the wall, which is force
+// times velocity times time.
+double mean_pressure(const char* mass_scaling, const char* until) {
+    HardScene s("hard/wall_impact",
+                {{"solver.mass_scaling", mass_scaling}, {"program.until.cavity_strain", until}});
+    s.run();
+    const double area = 2 * pi * 0.02 * 1e-3;
+    return s.solver.energies().external / (1e-3 * area * s.solver.time());
+}
+
+TEST(WallImpact, MeetsTheImpedanceOfTheSoil) {
+    const double c = std::sqrt(120e6 / 1600.0), jump = 1600.0 * c * 1e-3;
+    EXPECT_NEAR(jump, 438.0, 0.5); // Pa
+    const double time = 0.0002e-2 * 0.02 / 1e-3, way = c * time;
+    const double mean = jump * (1.0 + way / (12 * 0.02));
+    EXPECT_NEAR(mean_pressure("1", "0.0002 %"), mean, 0.01 * jump);
+    EXPECT_NEAR(mean_pressure("100", "0.002 %"), 10.0 * mean,
+                0.1 * jump); // a tenth of the speed for ten times as long
+}
+
+} // namespace
+} // namespace gault::core::test
