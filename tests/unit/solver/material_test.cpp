@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstring>
 #include <set>
+#include <thread>
 
 namespace gault::core::test {
 namespace {
@@ -100,12 +103,12 @@ TEST_P(EveryFrame, NamesThePointThatFailedAndSaysWhy) {
         std::strcpy(e.text, "the soil has had enough");
         return gault_status(GAULT_FAILED);
     };
-    s.add(soil, 1600.0, "clay");
+    s.add(soil, 1600.0, "layer");
     Body body(s.scene);
     const PointRecord third = body.motion->record(0, 2);
     const std::string where = body.motion->where(0, 2), text = message([&] { squeeze(body, -1e-9); });
     EXPECT_EQ(text, where + ": the soil has had enough");
-    EXPECT_NE(where.find("point " + std::to_string(body.model.points[0].identity(2)) + " of 'clay' at ("),
+    EXPECT_NE(where.find("point " + std::to_string(body.model.points[0].identity(2)) + " of 'layer' at ("),
               std::string::npos);
     EXPECT_GT(third.reference[0], 0.0);
 }
@@ -241,6 +244,24 @@ TEST_P(EveryFrame, InterpolatesTheDeformationGradientBetweenPieces) {
         EXPECT_NEAR(starts[piece], 1.0 + 0.01 * piece, 1e-14);
         EXPECT_NEAR(ends[piece], 1.01 + 0.01 * piece, 1e-14);
     }
+}
+
+TEST_P(EveryFrame, CallsAModelWithGlobalStateFromOneThreadAtATime) {
+    std::atomic<int> inside = 0, most = 0, calls = 0;
+    soil.flags = GAULT_ONE_AT_A_TIME;
+    soil.update = [&](gault_points& p, gault_error&) {
+        most = std::max<int>(most, ++inside);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ++calls;
+        --inside;
+        return soil.elastic(p);
+    };
+    s.scene.axes = {{{2, 1.0}, {16, 1.0}}};
+    s.add(soil, 1600.0);
+    Body body(s.scene, 4);
+    squeeze(body);
+    EXPECT_EQ(most, 1);
+    EXPECT_EQ(calls, 16) << "a batch a row";
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, EveryFrame, testing::Values(Frame::total, Frame::updated),

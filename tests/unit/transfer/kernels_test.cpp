@@ -152,25 +152,32 @@ TEST_P(EveryKernel, ForcesInTheTotalFrameAreStressTimesPresentGradients) {
 }
 
 TEST_P(EveryKernel, ViscousStressIsTheElasticStressOfTheStepsStrain) {
-    Trial t(degree, axisymmetric, false);
-    SlotResults r(t.points.slots());
     constexpr double lame = 2.0, shear = 3.0;
-    const auto with = t.sweep(r, 2, [&](BatchView& v) {
-        v.viscous_lame = lame;
-        v.viscous_shear = shear;
-        kernels.total_strain(t.grid(), v, t.input(0.03));
-        kernels.total_force(t.grid(), v);
-    });
-    t.points.each_point([&](std::size_t slot) {
-        for (int k = 0; k < 4; ++k)
-            t.points.columns().stress[k][slot] +=
-                2.0 * shear * r.strain[k][slot] +
-                (k < 3 ? lame * (r.strain[0][slot] + r.strain[1][slot] + r.strain[2][slot]) : 0.0);
-    });
-    expect_fields(with, t.sweep(r, 2, [&](BatchView& v) {
-        kernels.total_strain(t.grid(), v, t.input(0.03));
-        kernels.total_force(t.grid(), v);
-    }));
+    for (const bool updated : {false, true}) {
+        Trial t(degree, axisymmetric, updated);
+        SlotResults r(t.points.slots());
+        const auto forces = [&](double viscous) {
+            return t.sweep(r, updated ? 3 : 2, [&](BatchView& v) {
+                v.viscous_lame = viscous * lame;
+                v.viscous_shear = viscous * shear;
+                if (updated) {
+                    kernels.updated_strain(t.grid(), v, t.input(0.03), false, false);
+                    kernels.updated_force(t.grid(), v);
+                } else {
+                    kernels.total_strain(t.grid(), v, t.input(0.03));
+                    kernels.total_force(t.grid(), v);
+                }
+            });
+        };
+        const auto with = forces(1.0);
+        t.points.each_point([&](std::size_t slot) {
+            const double volumetric = lame * (r.strain[0][slot] + r.strain[1][slot] + r.strain[2][slot]);
+            for (int k = 0; k < 4; ++k)
+                t.points.columns().stress[k][slot] +=
+                    2.0 * shear * r.strain[k][slot] + (k < 3 ? volumetric : 0.0);
+        });
+        expect_fields(with, forces(0.0));
+    }
 }
 
 // sum f . v = - sum V stress : strain rate, for any velocity
