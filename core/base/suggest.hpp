@@ -6,7 +6,8 @@
 
 namespace gault::core {
 
-// The candidate with the smallest Damerau-Levenshtein distance, or "" when none is near (more than a third wrong).
+// The candidate with the smallest Damerau-Levenshtein distance, or "" when none is near (more than a third
+// wrong).
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 // "; did you mean 'x'?" or "", to append to a message, followed by "; allowed: a, b, c" when there are few.

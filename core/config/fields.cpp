@@ -79,8 +79,7 @@ bool is_auto(const Node* node) {
 
 const Node& require_kind(const Node& node, NodeKind kind, const std::string& path) {
     if (node.kind == kind) return node;
-    if (node.kind == NodeKind::null)
-        throw InputError(node.where(), path + " has no value");
+    if (node.kind == NodeKind::null) throw InputError(node.where(), path + " has no value");
     const std::string wanted = kind == NodeKind::map    ? "a map of keys"
                                : kind == NodeKind::list ? "a list"
                                                         : "a single value";

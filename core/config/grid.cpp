@@ -115,7 +115,8 @@ void read_points(const Source& source, Scene& scene) {
                               ? Placement::uniform
                               : Placement::gauss;
     else
-        note_choice(scene, "points.placement", "gauss", "mass and forces are integrated as surface loads are");
+        note_choice(scene, "points.placement", "gauss",
+                    "mass and forces are integrated as surface loads are");
 }
 
 } // namespace gault::core::config

@@ -109,10 +109,11 @@ void read_solver(const Source& source, Scene& scene) {
     const Node* node = source.root.find("solver");
     scene.solver.where = node ? node->where() : source.root.where();
     if (node == nullptr) return;
-    const Fields fields(*node, "solver", {"time_step_factor", "damping", "viscosity", "mass_scaling", "stress_update"});
+    const Fields fields(*node, "solver",
+                        {"time_step_factor", "damping", "viscosity", "mass_scaling", "stress_update"});
     SolverSettings& solver = scene.solver;
     solver.time_step_factor = fields.quantity(
-        "time_step_factor", "1", {.min = 0.0, .max = 1.0, .min_open = true}, solver.time_step_factor);
+        "time_step_factor", "1", {.min = 0.0, .max = 2.0, .min_open = true}, solver.time_step_factor);
     solver.viscosity = fields.quantity("viscosity", "1", not_negative, solver.viscosity);
     solver.damping =
         fields.quantity("damping", "1", {.min = 0.0, .max = 1.0, .max_open = true}, solver.damping);

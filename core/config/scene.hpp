@@ -51,11 +51,12 @@ struct Region { // later regions win
 };
 
 struct InitialStress { // compression positive, as written
-    // isotropic, or vertical and k0: horizontal = k0 * vertical; with gravity the vertical stress grows with depth:
-    // vertical(y) = vertical + sum of density * g over the soil between y and the top surface + density * g * depth
+    // isotropic, or vertical and k0: horizontal = k0 * vertical; with gravity the vertical stress grows with
+    // depth: vertical(y) = vertical + sum of density * g over the soil between y and the top surface +
+    // density * g * depth
     double vertical = 0.0; // Pa, at `depth` above the top surface (a surcharge)
     double k0 = 1.0;
-    double depth = 0.0; // m, of the top surface below the ground
+    double depth = 0.0;   // m, of the top surface below the ground
     bool gravity = false; // the stress follows the weight of the soil
     Location where;
 };
@@ -68,13 +69,15 @@ struct BoundaryUse {
 struct SolverSettings {
     double time_step_factor = 0.9; // of the true limit 2 / omega_max
     double damping = 0.0;          // Cundall's local coefficient, 0 <= alpha < 1
-    double viscosity = 0.1; // viscous stress of a step's strain, as a share of the elastic stress of that strain
+    double viscosity =
+        0.1; // viscous stress of a step's strain, as a share of the elastic stress of that strain
     double mass_scaling = 1.0;
     StressUpdate stress_update = StressUpdate::usl;
     Location where;
 };
 
-struct FrameRequest { // frames are written when `measure` (a column of the history, or "time") reaches each value
+// Frames are written when `measure` (a column of the history, or "time") reaches each value.
+struct FrameRequest {
     std::string measure; // "" : only the last state
     std::vector<double> values;
     Location where;
@@ -83,8 +86,9 @@ struct FrameRequest { // frames are written when `measure` (a column of the hist
 struct CurveReference { // the history against a file of two columns
     std::string x, y;   // history columns without unit suffix: "cavity_strain", "true_pressure"
     std::filesystem::path file;
-    double from, to;                  // range of x compared
-    std::optional<std::array<double, 2>> noise; // range of x for the RMS about a cubic fit of the run's own curve
+    double from, to; // range of x compared
+    std::optional<std::array<double, 2>>
+        noise; // range of x for the RMS about a cubic fit of the run's own curve
     Location where;
 };
 
@@ -130,17 +134,21 @@ struct Scene {
     };
     std::vector<ObserverUse> observers;
 
-    std::vector<std::string> chosen; // what was left to the program and what it took: "frame: total (material stays in place)"
+    std::vector<std::string>
+        chosen; // what was left to the program and what it took: "frame: total (material stays in place)"
 };
 
 struct Override { // --set KEY=VALUE: dots for maps, numbers for list items
     std::string key, value;
 };
 
-// The `plugins:` of a scene, relative to its folder, read before anything else so that the registry can be made.
-std::vector<std::filesystem::path> scene_plugins(const std::filesystem::path& file, const std::vector<Override>& overrides);
+// The `plugins:` of a scene, relative to its folder, read before anything else so that the registry can be
+// made.
+std::vector<std::filesystem::path> scene_plugins(const std::filesystem::path& file,
+                                                 const std::vector<Override>& overrides);
 
 // Throws InputError (file:line:column: what, what is allowed, the nearest right name).
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides, const Registry& registry);
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 const Registry& registry);
 
 } // namespace gault::core

@@ -5,13 +5,16 @@
 
 namespace gault::core {
 
-Axis::Axis(std::vector<double> knots, int degree) : knots_(std::move(knots)), degree_(degree) { refresh(); }
+Axis::Axis(std::vector<double> knots, int degree) : knots_(std::move(knots)), degree_(degree) {
+    refresh();
+}
 
 std::vector<double> Axis::graded(double lower, double upper, int cells, double ratio) {
     std::vector<double> knots(cells + 1);
     const bool uniform = std::abs(ratio - 1.0) < 1e-12;
     for (int i = 0; i <= cells; ++i) {
-        const double fraction = uniform ? double(i) / cells : (std::pow(ratio, i) - 1.0) / (std::pow(ratio, cells) - 1.0);
+        const double fraction =
+            uniform ? double(i) / cells : (std::pow(ratio, i) - 1.0) / (std::pow(ratio, cells) - 1.0);
         knots[i] = lower + (upper - lower) * fraction;
     }
     knots.back() = upper;
@@ -42,14 +45,16 @@ Axis::Weights Axis::weights(int cell, double xi) const {
 
 void Axis::move(double lower, double upper) {
     const double scale = (upper - lower) / (knots_.back() - knots_.front()), start = knots_.front();
-    for (double& knot : knots_) knot = lower + (knot - start) * scale;
+    for (double& knot : knots_)
+        knot = lower + (knot - start) * scale;
     knots_.back() = upper;
     refresh();
 }
 
 void Axis::refresh() {
     const int n = cells();
-    for (Column* column : {&origin_, &length_, &inverse_length_, &left_, &right_}) column->resize(n);
+    for (Column* column : {&origin_, &length_, &inverse_length_, &left_, &right_})
+        column->resize(n);
     for (int e = 0; e < n; ++e) {
         const double h = knots_[e + 1] - knots_[e];
         const double before = e > 0 ? knots_[e] - knots_[e - 1] : 0.0;

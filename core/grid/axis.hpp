@@ -7,8 +7,9 @@
 
 namespace gault::core {
 
-// Linear (2 functions a cell) or quadratic B-spline (3 functions a cell) on clamped, non-uniform knots: the first and
-// the last function are 1 on the end of the axis, so a wall node is the wall (de Boor 1978; Steffen et al. 2008).
+// Linear (2 functions a cell) or quadratic B-spline (3 functions a cell) on clamped, non-uniform knots: the
+// first and the last function are 1 on the end of the axis, so a wall node is the wall (de Boor 1978; Steffen
+// et al. 2008).
 class Axis {
   public:
     Axis(std::vector<double> knots, int degree); // knots strictly increasing, m; degree 1 or 2

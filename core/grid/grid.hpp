@@ -8,11 +8,15 @@
 namespace gault::core {
 
 enum Side { low_x = 0, high_x = 1, low_y = 2, high_y = 3 }; // the order of Geometry::surfaces
-constexpr int normal_axis(int side) { return side / 2; }
-constexpr double outward(int side) { return side % 2 ? 1.0 : -1.0; } // component of the outward normal
+constexpr int normal_axis(int side) {
+    return side / 2;
+}
+constexpr double outward(int side) {
+    return side % 2 ? 1.0 : -1.0;
+} // component of the outward normal
 
-// Nodes are stored with a margin of two on every side, so that a stencil needs no special case at the rim. Row j of a field
-// begins, margin included, at the aligned index row_begin(j).
+// Nodes are stored with a margin of two on every side, so that a stencil needs no special case at the rim.
+// Row j of a field begins, margin included, at the aligned index row_begin(j).
 struct NodeLayout {
     int nx = 0, ny = 0;     // nodes
     std::ptrdiff_t row = 0; // distance between node (i, j) and (i, j + 1)
@@ -21,9 +25,7 @@ struct NodeLayout {
     static constexpr int margin = 2, lead = 8;
     NodeLayout() = default;
     NodeLayout(int nodes_x, int nodes_y);
-    std::size_t index(int i, int j) const {
-        return row_begin(j) + static_cast<std::size_t>(i + margin);
-    }
+    std::size_t index(int i, int j) const { return row_begin(j) + static_cast<std::size_t>(i + margin); }
     std::size_t row_begin(int j) const { return lead + static_cast<std::size_t>((j + margin) * row); }
 };
 

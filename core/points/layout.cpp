@@ -7,10 +7,13 @@
 namespace gault::core {
 namespace {
 
-int pages_for(int points) { return (points + page_slots - 1) / page_slots; }
+int pages_for(int points) {
+    return (points + page_slots - 1) / page_slots;
+}
 
 // Cuts a row of cells into batches of about the wanted number of pages.
-void cut_row(int row, const std::vector<int>& count, const LayoutRequest& request, std::vector<Batch>& batches) {
+void cut_row(int row, const std::vector<int>& count, const LayoutRequest& request,
+             std::vector<Batch>& batches) {
     int column = 0;
     const auto empty = [&](int c) { return count[static_cast<std::size_t>(row) * request.columns + c] == 0; };
     while (column < request.columns) {
@@ -35,8 +38,10 @@ Layout lay_out(const std::vector<int32_t>& cell, const LayoutRequest& request) {
     Layout layout;
     const std::size_t cells = static_cast<std::size_t>(request.columns) * request.rows;
     std::vector<int> count(cells, 0);
-    for (const int32_t c : cell) ++count[c];
-    for (int row = 0; row < request.rows; ++row) cut_row(row, count, request, layout.batches);
+    for (const int32_t c : cell)
+        ++count[c];
+    for (int row = 0; row < request.rows; ++row)
+        cut_row(row, count, request, layout.batches);
 
     layout.batch_of_cell.assign(cells, -1);
     std::vector<std::size_t> next(cells); // slot of the cell's next point
@@ -63,7 +68,8 @@ Layout lay_out(const std::vector<int32_t>& cell, const LayoutRequest& request) {
     }
     layout.slots = static_cast<std::size_t>(page) * page_slots;
     layout.slot_of_point.resize(cell.size());
-    for (std::size_t p = 0; p < cell.size(); ++p) layout.slot_of_point[p] = next[cell[p]]++;
+    for (std::size_t p = 0; p < cell.size(); ++p)
+        layout.slot_of_point[p] = next[cell[p]]++;
     return layout;
 }
 

@@ -1,5 +1,5 @@
-// Where the points of one material lie in memory: pages of eight slots, each page in one grid cell, pages in batches,
-// each batch in one row of cells.
+// Where the points of one material lie in memory: pages of eight slots, each page in one grid cell, pages in
+// batches, each batch in one row of cells.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -17,18 +17,18 @@ struct Batch {
 };
 
 struct Layout {
-    std::vector<Batch> batches;          // by cell row, then column
-    std::vector<int32_t> page_column;    // of every reserved page
-    std::vector<uint8_t> page_live;      // its points, in the first slots
-    std::vector<int32_t> batch_of_cell;  // row * columns + column; -1 where the material has no batch
+    std::vector<Batch> batches;             // by cell row, then column
+    std::vector<int32_t> page_column;       // of every reserved page
+    std::vector<uint8_t> page_live;         // its points, in the first slots
+    std::vector<int32_t> batch_of_cell;     // row * columns + column; -1 where the material has no batch
     std::vector<std::size_t> slot_of_point; // in the order of the cells given
     std::size_t slots = 0, patch_size = 0;
 };
 
 struct LayoutRequest {
-    int columns, rows;    // of cells
-    int degree;           // of the basis: the size of a patch
-    bool roaming;         // points may enter any cell: batches cover the whole grid and keep spare pages
+    int columns, rows; // of cells
+    int degree;        // of the basis: the size of a patch
+    bool roaming;      // points may enter any cell: batches cover the whole grid and keep spare pages
     int pages_per_batch = 64;
 };
 

@@ -11,15 +11,18 @@ Points::Points(PointColumns columns, const std::vector<int32_t>& cell, std::vect
     place_all(std::move(columns), cell, identity);
 }
 
-void Points::place_all(PointColumns points, const std::vector<int32_t>& cell, const std::vector<uint32_t>& identity) {
+void Points::place_all(PointColumns points, const std::vector<int32_t>& cell,
+                       const std::vector<uint32_t>& identity) {
     layout_ = lay_out(cell, request_);
     ++version_;
     identity_.assign(layout_.slots, no_point);
-    for (std::size_t p = 0; p < cell.size(); ++p) identity_[layout_.slot_of_point[p]] = identity[p];
+    for (std::size_t p = 0; p < cell.size(); ++p)
+        identity_[layout_.slot_of_point[p]] = identity[p];
     points.each([&](Column& column) {
         if (column.empty()) return;
         Column placed(layout_.slots);
-        for (std::size_t p = 0; p < cell.size(); ++p) placed[layout_.slot_of_point[p]] = column[p];
+        for (std::size_t p = 0; p < cell.size(); ++p)
+            placed[layout_.slot_of_point[p]] = column[p];
         column = std::move(placed);
     });
     columns_ = std::move(points);
@@ -51,10 +54,13 @@ void Points::take_out(std::size_t slot, int batch_index) {
     if (last != slot) copy_slot(last, slot);
     empty_slot(last);
     if (layout_.page_live[page] > 0) return;
-    const std::size_t final = static_cast<std::size_t>(batch.first_page) + --batch.pages; // its place is taken by the last page
+    const std::size_t final =
+        static_cast<std::size_t>(batch.first_page) + --batch.pages; // its place is taken by the last page
     if (final == page) return;
-    for (int lane = 0; lane < page_slots; ++lane) copy_slot(final * page_slots + lane, page * page_slots + lane);
-    for (int lane = 0; lane < page_slots; ++lane) empty_slot(final * page_slots + lane);
+    for (int lane = 0; lane < page_slots; ++lane)
+        copy_slot(final * page_slots + lane, page * page_slots + lane);
+    for (int lane = 0; lane < page_slots; ++lane)
+        empty_slot(final * page_slots + lane);
     layout_.page_column[page] = layout_.page_column[final];
     layout_.page_live[page] = layout_.page_live[final];
     layout_.page_live[final] = 0;
@@ -65,7 +71,8 @@ bool Points::put_in(const std::vector<double>& point, uint32_t identity, int32_t
     const int column = cell % request_.columns;
     int page = batch.first_page;
     const int end = batch.first_page + batch.pages;
-    while (page < end && (layout_.page_column[page] != column || layout_.page_live[page] == page_slots)) ++page;
+    while (page < end && (layout_.page_column[page] != column || layout_.page_live[page] == page_slots))
+        ++page;
     const bool fresh = page == end;
     if (fresh) {
         if (batch.pages == batch.capacity) return false;
@@ -99,17 +106,20 @@ void Points::relocate(const std::vector<Move>& moves) {
     std::size_t batch = layout_.batches.size();
     for (std::size_t m = moves.size(); m-- > 0;) { // from the back, so that what fills a hole has stayed
         const int page = static_cast<int>(moves[m].slot / page_slots);
-        while (batch == layout_.batches.size() || layout_.batches[batch].first_page > page) --batch;
+        while (batch == layout_.batches.size() || layout_.batches[batch].first_page > page)
+            --batch;
         take_out(moves[m].slot, static_cast<int>(batch));
     }
     for (std::size_t m = 0; m < moves.size(); ++m) {
         if (put_in(taken[m], identity[m], cell[m])) continue;
-        lay_out_anew({taken.begin() + m, taken.end()}, {identity.begin() + m, identity.end()}, {cell.begin() + m, cell.end()});
+        lay_out_anew({taken.begin() + m, taken.end()}, {identity.begin() + m, identity.end()},
+                     {cell.begin() + m, cell.end()});
         return;
     }
 }
 
-void Points::lay_out_anew(const std::vector<std::vector<double>>& extra, const std::vector<uint32_t>& extra_identity,
+void Points::lay_out_anew(const std::vector<std::vector<double>>& extra,
+                          const std::vector<uint32_t>& extra_identity,
                           const std::vector<int32_t>& extra_cell) {
     std::vector<std::size_t> slots;
     std::vector<int32_t> cell;
@@ -128,8 +138,10 @@ void Points::lay_out_anew(const std::vector<std::vector<double>>& extra, const s
         if (c.empty()) return;
         Column dense;
         dense.reserve(cell.size());
-        for (const std::size_t slot : slots) dense.push_back(c[slot]);
-        for (const auto& point : extra) dense.push_back(point[k]);
+        for (const std::size_t slot : slots)
+            dense.push_back(c[slot]);
+        for (const auto& point : extra)
+            dense.push_back(point[k]);
         c = std::move(dense);
         ++k;
     });

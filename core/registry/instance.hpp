@@ -16,7 +16,10 @@ class Instance {
     const void* self() const { return self_; }
     const Component& component() const { return *component_; }
     const gault_component& declaration() const { return *component_->declaration; }
-    template <class Api> const Api& api() const { return *static_cast<const Api*>(declaration().api); }
+    template <class Api>
+    const Api& api() const {
+        return *static_cast<const Api*>(declaration().api);
+    }
 
   private:
     const Component* component_;

@@ -10,9 +10,9 @@
 namespace gault::core {
 
 struct Parameters {
-    std::vector<gault_value> values;  // one per declared parameter, in order
-    std::vector<Location> locations;  // where each was written; where the component was, for a default
-    Location where;                   // of the component itself
+    std::vector<gault_value> values; // one per declared parameter, in order
+    std::vector<Location> locations; // where each was written; where the component was, for a default
+    Location where;                  // of the component itself
 
     // Storage behind `values`; deques, so that growing moves nothing. Moving keeps every pointer valid.
     std::deque<std::string> texts;

@@ -26,14 +26,16 @@ std::vector<double> first_state(const Motion& motion) {
 
 double changed(const std::vector<double>& before, const std::vector<double>& after, std::size_t points) {
     std::size_t n = 0;
-    for (std::size_t i = 0; i < after.size(); ++i) n += after[i] != before[i];
+    for (std::size_t i = 0; i < after.size(); ++i)
+        n += after[i] != before[i];
     return static_cast<double>(n) / static_cast<double>(points);
 }
 
 double column_bytes(const Motion& motion) {
     double bytes = 0.0;
     for (const Points& points : motion.points()) {
-        points.columns().each([&](const Column& c) { bytes += static_cast<double>(c.size() * sizeof(double)); });
+        points.columns().each(
+            [&](const Column& c) { bytes += static_cast<double>(c.size() * sizeof(double)); });
         bytes += static_cast<double>(points.slots() * sizeof(uint32_t));
     }
     return bytes / static_cast<double>(motion.point_count());
@@ -77,13 +79,16 @@ BenchReport bench_scene(const Scene& scene, int threads, double share) {
     }
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.steps = solver.steps() - first;
-    report.point_steps = static_cast<double>(report.steps) * static_cast<double>(report.points) / report.seconds;
+    report.point_steps =
+        static_cast<double>(report.steps) * static_cast<double>(report.points) / report.seconds;
     report.changing = changed(before, first_state(solver.motion()), report.points);
     const PhaseClock& clock = solver.motion().clock();
     const double known = clock.strain + clock.material + clock.force + clock.velocity + clock.sort;
-    report.phases = {{"strain", clock.strain},     {"material", clock.material}, {"force", clock.force},
-                     {"velocity", clock.velocity}, {"sort", clock.sort},         {"grid and boundaries", report.seconds - known}};
-    for (auto& phase : report.phases) phase.share /= report.seconds;
+    report.phases = {{"strain", clock.strain}, {"material", clock.material},
+                     {"force", clock.force},   {"velocity", clock.velocity},
+                     {"sort", clock.sort},     {"grid and boundaries", report.seconds - known}};
+    for (auto& phase : report.phases)
+        phase.share /= report.seconds;
     report.bytes_per_point = column_bytes(solver.motion());
     const nlohmann::json errors = verification.finish(rows);
     if (errors.contains("curves")) report.curve_error = errors["curves"][0]["largest_relative_error"];

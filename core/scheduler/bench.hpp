@@ -6,22 +6,22 @@ namespace gault::core {
 
 struct BenchReport {
     std::size_t points;
-    int64_t steps;             // timed ones
-    double seconds;            // of the timed steps
-    double point_steps;        // a second
-    double changing;           // share of the points whose first state changed over the timed steps: for a plastic soil, those
-                               // that returned to the yield surface
+    int64_t steps;      // timed ones
+    double seconds;     // of the timed steps
+    double point_steps; // a second
+    double changing;    // share of the points whose first state changed over the timed steps: for a plastic
+                        // soil, those that returned to the yield surface
     struct Phase {
         const char* name;
         double share; // of the first thread's time
     };
     std::vector<Phase> phases;
-    double curve_error;        // largest relative error of the scene's first reference curve, NaN without one
-    double bytes_per_point;    // of the points' columns
+    double curve_error;     // largest relative error of the scene's first reference curve, NaN without one
+    double bytes_per_point; // of the points' columns
 };
 
-// Runs the scene to the end of its program without writing results; times the steps of the last `share` of the program's
-// time.
+// Runs the scene to the end of its program without writing results; times the steps of the last `share` of
+// the program's time.
 BenchReport bench_scene(const Scene& scene, int threads, double share);
 
 // Peak resident memory, bytes, of a process of its own that builds the scene and makes a few steps.

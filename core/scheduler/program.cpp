@@ -23,21 +23,24 @@ const gault_program_signals& signals_of(const Instance& instance) {
 void check_measure(const Location& where, const char* owner, const std::string& name, bool has_surface) {
     const auto& known = ExplicitSolver::measure_names();
     if (std::find(known.begin(), known.end(), name) == known.end())
-        throw InputError(where, fmt::format("'{}' asks for the measure '{}', which this host does not offer{}", owner, name,
-                                            suggestion(name, known)));
+        throw InputError(where,
+                         fmt::format("'{}' asks for the measure '{}', which this host does not offer{}",
+                                     owner, name, suggestion(name, known)));
     if (ExplicitSolver::measures_surface(name) && !has_surface)
-        throw InputError(where, fmt::format("'{}' measures '{}' of a surface: say which one with `on:`", owner, name));
+        throw InputError(
+            where, fmt::format("'{}' measures '{}' of a surface: say which one with `on:`", owner, name));
 }
 
 Program::Program(const Scene& scene, ExplicitSolver& solver)
-    : instance_(*scene.program.component, scene.program.parameters), solver_(solver), where_(scene.program.parameters.where),
-      side_(scene.program_surface) {
+    : instance_(*scene.program.component, scene.program.parameters), solver_(solver),
+      where_(scene.program.parameters.where), side_(scene.program_surface) {
     const gault_program_signals& signals = signals_of(instance_);
     for (uint32_t k = 0; k < signals.measure_count; ++k) {
         measures_.emplace_back(signals.measures[k].name);
         check_measure(where_, instance_.declaration().name, measures_.back(), side_.has_value());
     }
-    for (uint32_t k = 0; k < signals.memory_count; ++k) memory_.push_back(signals.memories[k].initial);
+    for (uint32_t k = 0; k < signals.memory_count; ++k)
+        memory_.push_back(signals.memories[k].initial);
     for (uint32_t k = 0; k < signals.record_count; ++k) {
         record_.push_back(signals.records[k].initial);
         columns_.push_back({signals.records[k].name, signals.records[k].unit, signals.records[k].doc});
@@ -51,23 +54,28 @@ void Program::bind(const Scene& scene, const gault_program_signals& signals) {
         const gault_signal& signal = signals.controls[k];
         std::string unit;
         Control control{signal.name, solver_.boundaries().listeners(signal.name, side_, unit)};
-        const std::string place = side_ ? fmt::format("on '{}'", scene.geometry.surfaces[*side_]) : "in the scene";
+        const std::string place =
+            side_ ? fmt::format("on '{}'", scene.geometry.surfaces[*side_]) : "in the scene";
         if (control.listeners.empty()) {
             const auto names = solver_.boundaries().control_names(side_);
-            throw InputError(where_, fmt::format("program '{}' commands '{}', but no boundary {} listens to it{}",
-                                                 instance_.declaration().name, signal.name, place,
-                                                 names.empty() ? "; none there listens to a program" : suggestion(signal.name, names)));
+            throw InputError(where_,
+                             fmt::format("program '{}' commands '{}', but no boundary {} listens to it{}",
+                                         instance_.declaration().name, signal.name, place,
+                                         names.empty() ? "; none there listens to a program"
+                                                       : suggestion(signal.name, names)));
         }
         if (unit != signal.unit)
-            throw InputError(where_, fmt::format("program '{}' commands '{}' in {}, the boundary {} expects {}",
-                                                 instance_.declaration().name, signal.name, signal.unit, place, unit));
+            throw InputError(
+                where_, fmt::format("program '{}' commands '{}' in {}, the boundary {} expects {}",
+                                    instance_.declaration().name, signal.name, signal.unit, place, unit));
         control_.push_back(signal.initial);
         controls_.push_back(std::move(control));
     }
 }
 
 Program::Answer Program::advance(double dt, double next_dt) {
-    for (std::size_t k = 0; k < measures_.size(); ++k) measure_[k] = solver_.measure(measures_[k], side_.value_or(0)).value();
+    for (std::size_t k = 0; k < measures_.size(); ++k)
+        measure_[k] = solver_.measure(measures_[k], side_.value_or(0)).value();
     gault_step step{};
     step.size = sizeof step;
     step.index = solver_.steps();
@@ -83,11 +91,13 @@ Program::Answer Program::advance(double dt, double next_dt) {
     gault_error error{-1, 0, -1, ""};
     const gault_status status = instance_.api<gault_program_api>().advance(instance_.self(), &step, &error);
     if (status != GAULT_OK)
-        throw RunError(fmt::format("program '{}': {}{}", instance_.declaration().name,
-                                   std::string(error.text, strnlen(error.text, GAULT_TEXT)),
-                                   status == GAULT_RETRY ? " (it asked to repeat a step, which an explicit solver cannot)" : ""));
+        throw RunError(fmt::format(
+            "program '{}': {}{}", instance_.declaration().name,
+            std::string(error.text, strnlen(error.text, GAULT_TEXT)),
+            status == GAULT_RETRY ? " (it asked to repeat a step, which an explicit solver cannot)" : ""));
     for (std::size_t k = 0; k < controls_.size(); ++k)
-        for (double* listener : controls_[k].listeners) *listener = control_[k];
+        for (double* listener : controls_[k].listeners)
+            *listener = control_[k];
     return {step.done != 0, step.emit != 0, step.next};
 }
 

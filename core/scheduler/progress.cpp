@@ -10,7 +10,9 @@
 namespace gault::core {
 namespace {
 
-double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+double seconds(std::chrono::steady_clock::duration d) {
+    return std::chrono::duration<double>(d).count();
+}
 
 std::string duration_text(double s) {
     if (s < 100.0) return fmt::format("{:.0f} s", s);
@@ -20,7 +22,8 @@ std::string duration_text(double s) {
 } // namespace
 
 Progress::Progress(std::size_t points, bool quiet)
-    : points_(points), quiet_(quiet), terminal_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()), last_(start_) {}
+    : points_(points), quiet_(quiet), terminal_(isatty(STDERR_FILENO)),
+      start_(std::chrono::steady_clock::now()), last_(start_) {}
 
 Progress::~Progress() {
     if (terminal_ && !quiet_) std::fputs("\r\x1b[K", stderr);
@@ -33,16 +36,19 @@ bool Progress::due(int64_t step) {
 
 void Progress::show(const State& state) {
     const auto now = std::chrono::steady_clock::now();
-    const double rate = static_cast<double>(state.step - last_step_) * static_cast<double>(points_) / seconds(now - last_);
-    const double done = std::isfinite(state.end) && state.end > 0.0 ? std::min(1.0, state.time / state.end) : 0.0;
-    const std::string left = done > 0.0 ? duration_text(seconds(now - start_) * (1.0 - done) / done) + " left" : "";
-    const std::string text = fmt::format("step {}  t = {:.4g} s  {}  {:.1f} M point-steps/s  {}", state.step, state.time,
-                                         state.measure, rate * 1e-6, left);
+    const double rate =
+        static_cast<double>(state.step - last_step_) * static_cast<double>(points_) / seconds(now - last_);
+    const double done =
+        std::isfinite(state.end) && state.end > 0.0 ? std::min(1.0, state.time / state.end) : 0.0;
+    const std::string left =
+        done > 0.0 ? duration_text(seconds(now - start_) * (1.0 - done) / done) + " left" : "";
+    const std::string text = fmt::format("step {}  t = {:.4g} s  {}  {:.1f} M point-steps/s  {}", state.step,
+                                         state.time, state.measure, rate * 1e-6, left);
     if (terminal_) {
         constexpr int width = 24;
         const int full = static_cast<int>(done * width);
-        std::fprintf(stderr, "\r\x1b[K[%s%s] %3.0f %%  %s", std::string(full, '#').c_str(), std::string(width - full, '.').c_str(),
-                     100.0 * done, text.c_str());
+        std::fprintf(stderr, "\r\x1b[K[%s%s] %3.0f %%  %s", std::string(full, '#').c_str(),
+                     std::string(width - full, '.').c_str(), 100.0 * done, text.c_str());
         std::fflush(stderr);
     } else {
         log::info("{:3.0f} %  {}", 100.0 * done, text);

@@ -13,8 +13,8 @@ class Progress {
 
     struct State {
         int64_t step;
-        double time, end;      // s; end infinite if unknown
-        std::string measure;   // "cavity strain 2.31 %", or empty
+        double time, end;    // s; end infinite if unknown
+        std::string measure; // "cavity strain 2.31 %", or empty
     };
     bool due(int64_t step); // cheap; true a few times a second
     void show(const State& state);

@@ -63,6 +63,7 @@ class Run {
     double measured(const std::string& name) const;
     void write_frame();
     void summary(const char* status, const std::string& message);
+    void fail(const std::string& message); // what was written stays, with the reason
     std::string advice() const;
     double largest_kinetic_ratio() const;
     void report() const;
@@ -92,9 +93,10 @@ std::vector<ColumnInfo> Run::columns() const {
     for (std::size_t k = 0; k < all.size(); ++k)
         for (std::size_t other = 0; other < k; ++other)
             if (all[k].name == all[other].name)
-                throw InputError(scene_.program.parameters.where,
-                                 fmt::format("program '{}' records '{}', a column that the history has already",
-                                             scene_.program.component->declaration->name, all[k].name));
+                throw InputError(
+                    scene_.program.parameters.where,
+                    fmt::format("program '{}' records '{}', a column that the history has already",
+                                scene_.program.component->declaration->name, all[k].name));
     return all;
 }
 
@@ -177,6 +179,11 @@ std::string Run::advice() const {
             scene_.solver.time_step_factor, solver_.stability_limit());
     return fmt::format("try a smaller solver.time_step_factor (now {:g}) or a gentler load",
                        scene_.solver.time_step_factor);
+}
+
+void Run::fail(const std::string& message) {
+    summary("failed", message);
+    writer_.finish();
 }
 
 void Run::summary(const char* status, const std::string& message) {
@@ -273,16 +280,14 @@ Outcome Run::go() {
         }
         summary(interrupted ? "interrupted" : "done", "");
         writer_.finish();
-    } catch (const InputError& error) { // two boundaries that a program drives against each other
-        summary("failed", error.what());
-        writer_.finish();
-        throw;
     } catch (const RunError& error) {
         const std::string message = fmt::format("step {}, t = {:.6g} s: {}; {}", solver_.steps(),
                                                 solver_.time(), error.what(), advice());
-        summary("failed", message);
-        writer_.finish();
+        fail(message);
         throw RunError(message);
+    } catch (const std::exception& error) { // a program drives two boundaries against each other, no memory
+        fail(error.what());
+        throw;
     }
     if (interrupted) return Outcome::interrupted;
     if (!options_.quiet) report();
@@ -293,18 +298,21 @@ Outcome Run::go() {
 
 std::vector<std::string> cautions(const Scene& scene) {
     std::vector<std::string> all;
+    if (scene.solver.time_step_factor > 1.0)
+        all.push_back(fmt::format("caution: with solver.time_step_factor {:g} the step exceeds the stability "
+                                  "limit; the run will likely fail",
+                                  scene.solver.time_step_factor));
     if (scene.frame == Frame::updated && scene.basis == Basis::linear)
         all.push_back("caution: with grid.basis linear, forces jump where points cross cells; take "
                       "quadratic, or model.frame total");
     if (scene.points_per_cell == 1)
         all.push_back("caution: one point a cell passes no motion whose sign alternates from node to node, "
-                      "so forces of that "
-                      "shape are never balanced; take 4 points");
+                      "so forces of that shape are never balanced; take 4 points");
     if (scene.placement == Placement::uniform && scene.points_per_cell == 4 &&
         scene.basis == Basis::quadratic)
-        all.push_back("caution: four uniform points do not integrate quadratic functions, so surface loads "
-                      "and inertia disagree; "
-                      "take points.placement gauss, or 9 points");
+        all.push_back(
+            "caution: four uniform points do not integrate quadratic functions, so surface loads and inertia "
+            "disagree; take points.placement gauss, or 9 points");
     return all;
 }
 

@@ -17,8 +17,9 @@ struct RunOptions {
 
 enum class Outcome { done, interrupted };
 
-// Writes history.csv, summary.json, results.h5, results.xdmf into the folder. Throws InputError before anything is written,
-// RunError after the summary says `failed`. SIGINT and SIGTERM end the run after the current step.
+// Writes history.csv, summary.json, results.h5, results.xdmf into the folder. Throws InputError before
+// anything is written, RunError after the summary says `failed`. SIGINT and SIGTERM end the run after the
+// current step.
 Outcome run_scene(const Scene& scene, const RunOptions& options);
 
 // Everything that `run` checks before its first step, and what the scene took hold of, a line each.

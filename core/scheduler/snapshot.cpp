@@ -5,14 +5,16 @@
 namespace gault::core {
 namespace {
 
-template <class F> void each(const Motion& motion, F f) { // f(material, slot, identity)
+template <class F>
+void each(const Motion& motion, F f) { // f(material, slot, identity)
     for (int m = 0; m < static_cast<int>(motion.points().size()); ++m) {
         const Points& points = motion.points()[m];
         points.each_point([&](std::size_t slot) { f(m, slot, points.identity(slot)); });
     }
 }
 
-template <class Field> Dataset vector_of(const Motion& motion, ColumnInfo info, Field field) {
+template <class Field>
+Dataset vector_of(const Motion& motion, ColumnInfo info, Field field) {
     return {std::move(info), 3, [&motion, field](double* out) {
                 each(motion, [&](int m, std::size_t slot, uint32_t id) {
                     const std::array<double, 2> v = field(motion.record(m, slot));
@@ -31,7 +33,8 @@ const StateInfo* find_state(const Material& material, const std::string& name) {
 
 Dataset state_of(const Motion& motion, const gault_state& declared) {
     const int components = static_cast<int>(declared.shape);
-    return {{declared.name, declared.unit, std::string(declared.doc) + " 0 where the material has no such state."},
+    return {{declared.name, declared.unit,
+             std::string(declared.doc) + " 0 where the material has no such state."},
             components,
             [&motion, components, name = std::string(declared.name)](double* out) {
                 each(motion, [&](int m, std::size_t slot, uint32_t id) {
@@ -49,27 +52,41 @@ std::vector<Dataset> frame_datasets(const Motion& motion) {
     const bool ring = motion.grid().axisymmetric();
     const char* axes = ring ? "(r, y, 0)" : "(x, y, 0)";
     std::vector<Dataset> sets;
-    sets.push_back(vector_of(motion, {"position", "m", std::string("Current, ") + axes}, [](const PointRecord& r) { return r.position; }));
-    sets.push_back(vector_of(motion, {"reference_position", "m", std::string("Initial, ") + axes}, [](const PointRecord& r) { return r.reference; }));
-    sets.push_back(vector_of(motion, {"displacement", "m", "Position less reference position"}, [](const PointRecord& r) {
-        return std::array<double, 2>{r.position[0] - r.reference[0], r.position[1] - r.reference[1]};
-    }));
-    sets.push_back(vector_of(motion, {"velocity", "m/s", axes}, [](const PointRecord& r) { return r.velocity; }));
-    sets.push_back({{"stress", "Pa", "Cauchy, tension positive, xx yy zz xy yz zx; axisymmetric: x = r, y axial, z hoop"}, 6, [&motion](double* out) {
+    sets.push_back(vector_of(motion, {"position", "m", std::string("Current, ") + axes},
+                             [](const PointRecord& r) { return r.position; }));
+    sets.push_back(vector_of(motion, {"reference_position", "m", std::string("Initial, ") + axes},
+                             [](const PointRecord& r) { return r.reference; }));
+    sets.push_back(vector_of(
+        motion, {"displacement", "m", "Position less reference position"}, [](const PointRecord& r) {
+            return std::array<double, 2>{r.position[0] - r.reference[0], r.position[1] - r.reference[1]};
+        }));
+    sets.push_back(
+        vector_of(motion, {"velocity", "m/s", axes}, [](const PointRecord& r) { return r.velocity; }));
+    sets.push_back({{"stress", "Pa",
+                     "Cauchy, tension positive, xx yy zz xy yz zx; axisymmetric: x = r, y axial, z hoop"},
+                    6,
+                    [&motion](double* out) {
                         each(motion, [&](int m, std::size_t slot, uint32_t id) {
-                            for (int k = 0; k < 6; ++k) out[6 * id + k] = motion.points()[m].columns().stress[k][slot];
+                            for (int k = 0; k < 6; ++k)
+                                out[6 * id + k] = motion.points()[m].columns().stress[k][slot];
                         });
                     }});
-    sets.push_back({{"volume", "m^3", ring ? "Current, of the whole ring" : "Current, for 1 m of thickness"}, 1, [&motion](double* out) {
-                        each(motion, [&](int m, std::size_t slot, uint32_t id) { out[id] = motion.record(m, slot).volume; });
+    sets.push_back({{"volume", "m^3", ring ? "Current, of the whole ring" : "Current, for 1 m of thickness"},
+                    1,
+                    [&motion](double* out) {
+                        each(motion, [&](int m, std::size_t slot, uint32_t id) {
+                            out[id] = motion.record(m, slot).volume;
+                        });
                     }});
-    sets.push_back({{"material", "1", "Index into the scene's materials, in their order"}, 1, [&motion](double* out) {
-                        each(motion, [&](int m, std::size_t, uint32_t id) { out[id] = m; });
-                    }});
+    sets.push_back(
+        {{"material", "1", "Index into the scene's materials, in their order"}, 1, [&motion](double* out) {
+             each(motion, [&](int m, std::size_t, uint32_t id) { out[id] = m; });
+         }});
     for (std::size_t m = 0; m < motion.materials().size(); ++m)
         for (const StateInfo& info : motion.materials()[m].states()) {
             bool known = false;
-            for (std::size_t before = 0; before < m; ++before) known |= find_state(motion.materials()[before], info.declared.name) != nullptr;
+            for (std::size_t before = 0; before < m; ++before)
+                known |= find_state(motion.materials()[before], info.declared.name) != nullptr;
             if (!known) sets.push_back(state_of(motion, info.declared));
         }
     return sets;
@@ -79,8 +96,10 @@ PointArrays collect(const Motion& motion) {
     PointArrays a;
     const std::size_t n = motion.point_count();
     for (auto* group : {&a.position, &a.reference})
-        for (auto& c : *group) c.resize(n);
-    for (auto& c : a.stress) c.resize(n);
+        for (auto& c : *group)
+            c.resize(n);
+    for (auto& c : a.stress)
+        c.resize(n);
     a.volume.resize(n);
     each(motion, [&](int m, std::size_t slot, uint32_t id) {
         const PointRecord r = motion.record(m, slot);
@@ -88,7 +107,8 @@ PointArrays collect(const Motion& motion) {
             a.position[k][id] = r.position[k];
             a.reference[k][id] = r.reference[k];
         }
-        for (int k = 0; k < 6; ++k) a.stress[k][id] = motion.points()[m].columns().stress[k][slot];
+        for (int k = 0; k < 6; ++k)
+            a.stress[k][id] = motion.points()[m].columns().stress[k][slot];
         a.volume[id] = r.volume;
     });
     return a;
@@ -104,7 +124,8 @@ std::vector<double> collect_state(const Motion& motion, const std::string& name)
     std::vector<double> values(motion.point_count(), 0.0);
     each(motion, [&](int m, std::size_t slot, uint32_t id) {
         const StateInfo* info = find_state(motion.materials()[m], name);
-        if (info && info->declared.shape == GAULT_SCALAR) values[id] = motion.points()[m].columns().state[info->first][slot];
+        if (info && info->declared.shape == GAULT_SCALAR)
+            values[id] = motion.points()[m].columns().state[info->first][slot];
     });
     return values;
 }

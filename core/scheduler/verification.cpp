@@ -14,8 +14,8 @@ namespace gault::core {
 namespace {
 
 // The column `name`, or `name_UNIT` converted to SI.
-std::vector<double> read_column(const CsvTable& table, const std::filesystem::path& file, const std::string& name,
-                                const std::string& si_unit) {
+std::vector<double> read_column(const CsvTable& table, const std::filesystem::path& file,
+                                const std::string& name, const std::string& si_unit) {
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
         const std::string& header = table.columns[k];
         if (header == name) return table.values[k];
@@ -27,13 +27,16 @@ std::vector<double> read_column(const CsvTable& table, const std::filesystem::pa
             continue; // another column whose name begins alike
         }
         std::vector<double> values = table.values[k];
-        for (double& v : values) v *= factor;
+        for (double& v : values)
+            v *= factor;
         return values;
     }
-    throw InputError(fmt::format("{}: no column '{}'{}", file.string(), name, suggestion(name, table.columns)));
+    throw InputError(
+        fmt::format("{}: no column '{}'{}", file.string(), name, suggestion(name, table.columns)));
 }
 
-std::size_t history_column(const std::vector<ColumnInfo>& columns, const std::string& name, const Location& where) {
+std::size_t history_column(const std::vector<ColumnInfo>& columns, const std::string& name,
+                           const Location& where) {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < columns.size(); ++k) {
         if (columns[k].name == name) return k;
@@ -44,26 +47,30 @@ std::size_t history_column(const std::vector<ColumnInfo>& columns, const std::st
 
 } // namespace
 
-Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& columns) : folder_(scene.file.parent_path()) {
+Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& columns)
+    : folder_(scene.file.parent_path()) {
     for (const CurveReference& use : scene.curves) {
         const CsvTable table = read_csv(use.file);
-        const std::size_t x = history_column(columns, use.x, use.where), y = history_column(columns, use.y, use.where);
+        const std::size_t x = history_column(columns, use.x, use.where),
+                          y = history_column(columns, use.y, use.where);
         curves_.push_back({&use, x, y, read_column(table, use.file, use.x, columns[x].unit),
                            read_column(table, use.file, use.y, columns[y].unit)});
     }
     for (const ProfileReference& use : scene.profiles)
         for (const ProfileReference::At& at : use.at) {
             const CsvTable table = read_csv(at.file);
-            profiles_.push_back({use.measure, at.value, at.file, read_column(table, at.file, "reference_radius", "m"),
-                                 read_column(table, at.file, "sigma_r", "Pa"), read_column(table, at.file, "sigma_theta", "Pa")});
+            profiles_.push_back({use.measure, at.value, at.file,
+                                 read_column(table, at.file, "reference_radius", "m"),
+                                 read_column(table, at.file, "sigma_r", "Pa"),
+                                 read_column(table, at.file, "sigma_theta", "Pa")});
         }
     for (const Scene::ObserverUse& use : scene.observers) {
         Observer observer{Instance(*use.model.component, use.model.parameters), use.surface.value_or(0), {}};
         const auto& api = observer.instance.api<gault_observer_api>();
         for (uint32_t k = 0; k < api.measure_count; ++k) {
             observer.measures.emplace_back(api.measures[k].name);
-            check_measure(use.model.parameters.where, observer.instance.declaration().name, observer.measures.back(),
-                          use.surface.has_value());
+            check_measure(use.model.parameters.where, observer.instance.declaration().name,
+                          observer.measures.back(), use.surface.has_value());
         }
         observers_.push_back(std::move(observer));
     }
@@ -75,9 +82,11 @@ void Verification::at(const std::string& measure, double value, const Motion& mo
         profile.done = true;
         PointArrays points = collect(motion);
         for (const int k : {0, 2})
-            for (double& s : points.stress[k]) s = -s;
+            for (double& s : points.stress[k])
+                s = -s;
         const auto error = [&](int k, const std::vector<double>& reference) {
-            return profile_error(points.reference[0], points.stress[k], points.volume, profile.radius, reference);
+            return profile_error(points.reference[0], points.stress[k], points.volume, profile.radius,
+                                 reference);
         };
         profile_errors_.push_back({{"measure", measure},
                                    {"value", profile.value},
@@ -95,7 +104,8 @@ nlohmann::json Verification::finish(const std::vector<std::vector<double>>& rows
             x.push_back(row[curve.x]);
             y.push_back(row[curve.y]);
         }
-        const CurveError error = compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use->from, curve.use->to);
+        const CurveError error =
+            compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use->from, curve.use->to);
         nlohmann::json j = {{"x", curve.use->x},
                             {"y", curve.use->y},
                             {"file", std::filesystem::relative(curve.use->file).string()},
@@ -131,15 +141,20 @@ nlohmann::json Verification::observe(ExplicitSolver& solver) {
             sample.position[k] = k < 2 ? points.position[k].data() : zero.data();
             sample.reference_position[k] = k < 2 ? points.reference[k].data() : zero.data();
         }
-        for (int k = 0; k < 6; ++k) sample.stress[k] = points.stress[k].data();
+        for (int k = 0; k < 6; ++k)
+            sample.stress[k] = points.stress[k].data();
         sample.volume = points.volume.data();
         std::vector<std::vector<double>> fields;
-        for (const char* const* name = api.fields; name && *name; ++name) fields.push_back(collect_state(motion, *name));
-        for (std::size_t k = 0; k < fields.size(); ++k) sample.field[k] = fields[k].empty() ? nullptr : fields[k].data();
+        for (const char* const* name = api.fields; name && *name; ++name)
+            fields.push_back(collect_state(motion, *name));
+        for (std::size_t k = 0; k < fields.size(); ++k)
+            sample.field[k] = fields[k].empty() ? nullptr : fields[k].data();
         for (int k = 0; k < 2; ++k)
-            for (const double h : motion.grid().axis(k).length()) sample.cell_size[k] = std::max(sample.cell_size[k], h);
+            for (const double h : motion.grid().axis(k).length())
+                sample.cell_size[k] = std::max(sample.cell_size[k], h);
         std::vector<double> measure, result(api.result_count, std::numeric_limits<double>::quiet_NaN());
-        for (const std::string& name : observer.measures) measure.push_back(solver.measure(name, observer.side).value());
+        for (const std::string& name : observer.measures)
+            measure.push_back(solver.measure(name, observer.side).value());
         sample.measure = measure.data();
         sample.result = result.data();
         gault_error error{-1, 0, -1, ""};

@@ -10,27 +10,42 @@
 namespace gault::core {
 namespace {
 
-template <std::size_t N> void resize(std::array<Column, N>& columns, std::size_t n) {
-    for (Column& c : columns) c.resize(round_up(n, GAULT_LANES));
+template <std::size_t N>
+void resize(std::array<Column, N>& columns, std::size_t n) {
+    for (Column& c : columns)
+        c.resize(round_up(n, GAULT_LANES));
 }
 
-template <std::size_t N, class Pointer> void point_at(Pointer (&to)[N], std::array<Column, N>& columns) {
-    for (std::size_t k = 0; k < N; ++k) to[k] = columns[k].data();
+template <std::size_t N, class Pointer>
+void point_at(Pointer (&to)[N], std::array<Column, N>& columns) {
+    for (std::size_t k = 0; k < N; ++k)
+        to[k] = columns[k].data();
 }
 
-template <std::size_t N> void clear(std::array<Column, N>& columns) {
-    for (Column& c : columns) std::fill(c.begin(), c.end(), 0.0);
+template <std::size_t N>
+void clear(std::array<Column, N>& columns) {
+    for (Column& c : columns)
+        std::fill(c.begin(), c.end(), 0.0);
 }
 
 } // namespace
 
 Boundaries::Boundaries(const Scene& scene, const Motion& motion,
                        const std::function<SoilBehind(const std::array<double, 2>&)>& behind) {
-    for (int side = 0; side < 4; ++side) surfaces_.emplace_back(motion, side);
+    for (int side = 0; side < 4; ++side)
+        surfaces_.emplace_back(motion, side);
     for (const BoundaryUse& use : scene.boundaries) {
-        Condition c{Instance(*use.model.component, use.model.parameters), use.surfaces, {}, {}, {}, use.model.parameters.where, {}};
-        for (const int side : c.sides) c.names.push_back(scene.geometry.surfaces[side]);
-        for (uint32_t k = 0; k < c.api().control_count; ++k) c.control.push_back(c.api().controls[k].initial);
+        Condition c{Instance(*use.model.component, use.model.parameters),
+                    use.surfaces,
+                    {},
+                    {},
+                    {},
+                    use.model.parameters.where,
+                    {}};
+        for (const int side : c.sides)
+            c.names.push_back(scene.geometry.surfaces[side]);
+        for (uint32_t k = 0; k < c.api().control_count; ++k)
+            c.control.push_back(c.api().controls[k].initial);
         if (c.api().constrain) hold(c, motion);
         if (c.api().load) prepare_load(c, behind);
         conditions_.push_back(std::move(c));
@@ -42,25 +57,29 @@ void Boundaries::hold(Condition& condition, const Motion& motion) {
     for (const int side : condition.sides) {
         Held held;
         const std::size_t n = grid.side_nodes(side);
-        for (auto* columns : {&held.reference, &held.position, &held.normal, &held.displacement, &held.fixed, &held.velocity})
+        for (auto* columns :
+             {&held.reference, &held.position, &held.normal, &held.displacement, &held.fixed, &held.velocity})
             resize(*columns, n);
         for (std::size_t k = 0; k < n; ++k) {
             const auto ij = grid.side_node(side, static_cast<int>(k));
             held.ij.push_back(ij);
             held.node.push_back(grid.layout().index(ij[0], ij[1]));
             held.normal[normal_axis(side)][k] = outward(side);
-            for (int a = 0; a < 2; ++a) held.reference[a][k] = motion.node_position(ij[0], ij[1], a);
+            for (int a = 0; a < 2; ++a)
+                held.reference[a][k] = motion.node_position(ij[0], ij[1], a);
         }
         condition.held.push_back(std::move(held));
     }
 }
 
-void Boundaries::prepare_load(Condition& condition, const std::function<SoilBehind(const std::array<double, 2>&)>& behind) {
+void Boundaries::prepare_load(Condition& condition,
+                              const std::function<SoilBehind(const std::array<double, 2>&)>& behind) {
     for (const int side : condition.sides) {
         const Surface& surface = surfaces_[side];
         Loaded l;
         const std::size_t n = surface.size();
-        for (auto* columns : {&l.position, &l.normal, &l.displacement, &l.velocity, &l.traction, &l.initial_traction})
+        for (auto* columns :
+             {&l.position, &l.normal, &l.displacement, &l.velocity, &l.traction, &l.initial_traction})
             resize(*columns, n);
         resize(l.impedance, n);
         l.shear_modulus.resize(round_up(n, GAULT_LANES));
@@ -80,17 +99,20 @@ void Boundaries::prepare_load(Condition& condition, const std::function<SoilBehi
 
 void Boundaries::refuse(const Condition& condition, gault_status status, const gault_error& error) const {
     const std::string text(error.text, strnlen(error.text, GAULT_TEXT));
-    throw RunError(fmt::format("boundary '{}' on {}: {}{}", condition.instance.declaration().name, fmt::join(condition.names, ", "),
+    throw RunError(fmt::format("boundary '{}' on {}: {}{}", condition.instance.declaration().name,
+                               fmt::join(condition.names, ", "),
                                text.empty() ? "no result and no reason" : text,
                                status == GAULT_RETRY ? " (an explicit step cannot be repeated)" : ""));
 }
 
-void Boundaries::constrain(const Motion& motion, double time, double dt, FixedField& fixed, VectorField& value) {
+void Boundaries::constrain(const Motion& motion, double time, double dt, FixedField& fixed,
+                           VectorField& value) {
     fixed.clear();
     value.clear();
     const Grid& grid = motion.grid();
     if (grid.axisymmetric() && grid.axis(0).lower() == 0.0) // no motion across the axis
-        for (int j = 0; j < grid.layout().ny; ++j) fixed.c[0][grid.layout().index(0, j)] = 1.0;
+        for (int j = 0; j < grid.layout().ny; ++j)
+            fixed.c[0][grid.layout().index(0, j)] = 1.0;
     for (Condition& condition : conditions_)
         for (Held& held : condition.held) {
             gault_nodes nodes{};
@@ -119,7 +141,8 @@ void Boundaries::constrain(const Motion& motion, double time, double dt, FixedFi
         }
 }
 
-void Boundaries::impose(const Condition& condition, const Held& held, FixedField& fixed, VectorField& value) const {
+void Boundaries::impose(const Condition& condition, const Held& held, FixedField& fixed,
+                        VectorField& value) const {
     for (int a = 0; a < 2; ++a)
         for (std::size_t k = 0; k < held.node.size(); ++k) {
             if (held.fixed[a][k] == 0.0) continue;
@@ -127,19 +150,24 @@ void Boundaries::impose(const Condition& condition, const Held& held, FixedField
             const double wanted = held.velocity[a][k];
             if (!std::isfinite(wanted))
                 throw RunError(fmt::format("boundary '{}' on {} prescribes a velocity that is not a number",
-                                           condition.instance.declaration().name, fmt::join(condition.names, ", ")));
-            if (fixed.c[a][n] != 0.0 && std::abs(value.c[a][n] - wanted) > 1e-12 * (std::abs(value.c[a][n]) + std::abs(wanted)))
-                throw InputError(condition.where,
-                                 fmt::format("boundary '{}' on {} prescribes {} = {:g} m/s at a node where another boundary "
-                                             "prescribes {:g} m/s",
-                                             condition.instance.declaration().name, fmt::join(condition.names, ", "),
-                                             a ? "v_y" : "v_x", wanted, value.c[a][n]));
+                                           condition.instance.declaration().name,
+                                           fmt::join(condition.names, ", ")));
+            if (fixed.c[a][n] != 0.0 &&
+                std::abs(value.c[a][n] - wanted) > 1e-12 * (std::abs(value.c[a][n]) + std::abs(wanted)))
+                throw InputError(
+                    condition.where,
+                    fmt::format(
+                        "boundary '{}' on {} prescribes {} = {:g} m/s at a node where another boundary "
+                        "prescribes {:g} m/s",
+                        condition.instance.declaration().name, fmt::join(condition.names, ", "),
+                        a ? "v_y" : "v_x", wanted, value.c[a][n]));
             fixed.c[a][n] = 1.0;
             value.c[a][n] = wanted;
         }
 }
 
-void Boundaries::load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force) {
+void Boundaries::load(const Motion& motion, double time, double dt, const VectorField& velocity,
+                      VectorField& force) {
     force.clear();
     for (Condition& condition : conditions_)
         for (std::size_t s = 0; s < condition.loaded.size(); ++s) {
@@ -148,7 +176,8 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
             surface.refresh(motion);
             const std::size_t n = surface.size();
             for (std::size_t q = 0; q < n; ++q) {
-                const auto x = surface.position(q), area = surface.area(q), v = surface.interpolate(velocity, q);
+                const auto x = surface.position(q), area = surface.area(q),
+                           v = surface.interpolate(velocity, q);
                 const double size = std::sqrt(area[0] * area[0] + area[1] * area[1]);
                 for (int a = 0; a < 2; ++a) {
                     l.position[a][q] = x[a];
@@ -181,15 +210,18 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
             for (std::size_t q = 0; q < n; ++q) {
                 const auto area = surface.area(q);
                 const double size = std::sqrt(area[0] * area[0] + area[1] * area[1]), p = l.pressure[q];
-                surface.add_force(force, q, {l.traction[0][q] * size - p * area[0], l.traction[1][q] * size - p * area[1]});
+                surface.add_force(
+                    force, q, {l.traction[0][q] * size - p * area[0], l.traction[1][q] * size - p * area[1]});
             }
         }
 }
 
-std::vector<double*> Boundaries::listeners(const std::string& name, std::optional<int> side, std::string& unit) {
+std::vector<double*> Boundaries::listeners(const std::string& name, std::optional<int> side,
+                                           std::string& unit) {
     std::vector<double*> found;
     for (Condition& condition : conditions_) {
-        if (side && std::find(condition.sides.begin(), condition.sides.end(), *side) == condition.sides.end()) continue;
+        if (side && std::find(condition.sides.begin(), condition.sides.end(), *side) == condition.sides.end())
+            continue;
         for (uint32_t k = 0; k < condition.api().control_count; ++k)
             if (name == condition.api().controls[k].name) {
                 found.push_back(&condition.control[k]);
@@ -202,8 +234,10 @@ std::vector<double*> Boundaries::listeners(const std::string& name, std::optiona
 std::vector<std::string> Boundaries::control_names(std::optional<int> side) const {
     std::vector<std::string> names;
     for (const Condition& condition : conditions_) {
-        if (side && std::find(condition.sides.begin(), condition.sides.end(), *side) == condition.sides.end()) continue;
-        for (uint32_t k = 0; k < condition.api().control_count; ++k) names.emplace_back(condition.api().controls[k].name);
+        if (side && std::find(condition.sides.begin(), condition.sides.end(), *side) == condition.sides.end())
+            continue;
+        for (uint32_t k = 0; k < condition.api().control_count; ++k)
+            names.emplace_back(condition.api().controls[k].name);
     }
     return names;
 }
@@ -212,13 +246,15 @@ std::vector<std::string> Boundaries::description() const {
     std::vector<std::string> lines;
     for (const Condition& condition : conditions_) {
         std::size_t nodes = 0, facets = 0;
-        for (const Held& held : condition.held) nodes += held.node.size();
-        for (std::size_t s = 0; s < condition.loaded.size(); ++s) facets += surfaces_[condition.sides[s]].size();
+        for (const Held& held : condition.held)
+            nodes += held.node.size();
+        for (std::size_t s = 0; s < condition.loaded.size(); ++s)
+            facets += surfaces_[condition.sides[s]].size();
         std::vector<std::string> took;
         if (nodes) took.push_back(fmt::format("{} nodes", nodes));
         if (facets) took.push_back(fmt::format("{} quadrature points", facets));
-        lines.push_back(fmt::format("{} on {}: {}", condition.instance.declaration().name, fmt::join(condition.names, ", "),
-                                    fmt::join(took, ", ")));
+        lines.push_back(fmt::format("{} on {}: {}", condition.instance.declaration().name,
+                                    fmt::join(condition.names, ", "), fmt::join(took, ", ")));
     }
     return lines;
 }

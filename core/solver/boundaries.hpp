@@ -13,7 +13,7 @@
 
 namespace gault::core {
 
-struct SoilBehind { // a surface, for absorbing and far-field conditions
+struct SoilBehind {                  // a surface, for absorbing and far-field conditions
     double impedance_p, impedance_s; // rho c_p, rho c_s; Pa s/m
     double shear_modulus;            // Pa
     std::array<double, 3> stress;    // initial xx yy xy, tension positive, Pa
@@ -33,8 +33,8 @@ class Boundaries {
     Surface& surface(int side) { return surfaces_[side]; }
     const Surface& surface(int side) const { return surfaces_[side]; }
 
-    // A control named `name` on `side` (any side if nullopt): sets every listener, returns how many there are; `unit` gets
-    // the unit of a listener.
+    // A control named `name` on `side` (any side if nullopt): sets every listener, returns how many there
+    // are; `unit` gets the unit of a listener.
     std::vector<double*> listeners(const std::string& name, std::optional<int> side, std::string& unit);
     std::vector<std::string> control_names(std::optional<int> side) const;
 
@@ -62,7 +62,8 @@ class Boundaries {
         const gault_boundary_api& api() const { return instance.api<gault_boundary_api>(); }
     };
     void hold(Condition& condition, const Motion& motion);
-    void prepare_load(Condition& condition, const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
+    void prepare_load(Condition& condition,
+                      const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
     void impose(const Condition& condition, const Held& held, FixedField& fixed, VectorField& value) const;
     [[noreturn]] void refuse(const Condition& condition, gault_status status, const gault_error& error) const;
 

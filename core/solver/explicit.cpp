@@ -9,32 +9,38 @@ namespace {
 constexpr double strain_between_limits = 0.02;
 
 std::unique_ptr<Motion> make_motion(const Scene& scene, Model& model, int threads) {
-    if (scene.frame == Frame::total) return make_total_motion(model.grid, model.materials, model.points, threads);
+    if (scene.frame == Frame::total)
+        return make_total_motion(model.grid, model.materials, model.points, threads);
     return make_updated_motion(model.grid, model.materials, model.points, threads,
                                scene.solver.stress_update == StressUpdate::usf);
 }
 
 } // namespace
 
-double Energies::ratio() const { return internal == 0.0 ? 0.0 : kinetic / std::abs(internal); }
+double Energies::ratio() const {
+    return internal == 0.0 ? 0.0 : kinetic / std::abs(internal);
+}
 
 double Energies::error() const {
-    const double largest = std::max({std::abs(kinetic), std::abs(internal), std::abs(external), std::abs(damping)});
+    const double largest =
+        std::max({std::abs(kinetic), std::abs(internal), std::abs(external), std::abs(damping)});
     return largest == 0.0 ? 0.0 : std::abs(kinetic + internal - external - damping) / largest;
 }
 
 ExplicitSolver::ExplicitSolver(const Scene& scene, Model& model, int threads)
-    : settings_(scene.solver), gravity_(scene.gravity), model_(model), motion_(make_motion(scene, model, threads)),
-      boundaries_(scene, *motion_, model.behind(scene)),
-      internal_(model.grid.layout()), internal_before_(internal_), traction_(internal_), acceleration_(internal_), velocity_(internal_),
-      velocity_before_(internal_), damping_(internal_), reaction_(internal_), value_(internal_), fixed_(internal_),
+    : settings_(scene.solver), gravity_(scene.gravity), model_(model),
+      motion_(make_motion(scene, model, threads)), boundaries_(scene, *motion_, model.behind(scene)),
+      internal_(model.grid.layout()), internal_before_(internal_), traction_(internal_),
+      acceleration_(internal_), velocity_(internal_), velocity_before_(internal_), damping_(internal_),
+      reaction_(internal_), value_(internal_), fixed_(internal_),
       energies_of_row_(static_cast<std::size_t>(model.grid.layout().ny)) {
     for (int side = 0; side < 4; ++side) {
         initial_area_[side] = boundaries_.surface(side).total_area();
         initial_radius_[side] = boundaries_.surface(side).mean_radius();
     }
     motion_->forces(internal_);
-    boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_); // conditions that contradict each other are refused here
+    boundaries_.constrain(*motion_, time_, 0.0, fixed_,
+                          value_); // conditions that contradict each other are refused here
 }
 
 double ExplicitSolver::allowed_step() {
@@ -47,39 +53,32 @@ void ExplicitSolver::refresh_limit() {
     std::vector<std::array<double, 2>> viscosity(model_.materials.size());
     for (std::size_t m = 0; m < moduli.size(); ++m) {
         if (model_.points[m].count() == 0) continue;
-        evaluate_moduli(model_.materials[m], model_.points[m], view_of(model_.grid), moduli[m][0], moduli[m][1]);
+        evaluate_moduli(model_.materials[m], model_.points[m], view_of(model_.grid), moduli[m][0],
+                        moduli[m][1]);
         const double p_wave = *std::max_element(moduli[m][0].begin(), moduli[m][0].end());
         const double shear = *std::max_element(moduli[m][1].begin(), moduli[m][1].end());
         viscosity[m] = {settings_.viscosity * (p_wave - 2.0 * shear), settings_.viscosity * shear};
     }
     boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_);
-    // Local damping adds up to its share to the forces that resist, a viscous stress acts with half a step's delay: the limit
-    // falls by sqrt(1 + alpha) and sqrt(1 + 2 zeta).
+    // Local damping adds up to its share to the forces that resist, a viscous stress acts with half a step's
+    // delay: the limit falls by sqrt(1 + alpha) and sqrt(1 + 2 zeta).
     const double slower = (1.0 + settings_.damping) * (1.0 + 2.0 * settings_.viscosity);
     limit_ = stable_step(*motion_, moduli, fixed_, settings_.mass_scaling / slower);
     motion_->set_viscosity(std::move(viscosity));
     strained_ = 0.0;
 }
 
-template <class F> void ExplicitSolver::each_row(F f) {
-    const NodeLayout& layout = model_.grid.layout();
-    motion_->team().each(layout.ny, [&](int j, int) {
-        f(j, layout.row_begin(j), layout.row_begin(j) + static_cast<std::size_t>(layout.row));
-    });
-}
-
-void ExplicitSolver::impose_velocity() {
-    each_row([&](int, std::size_t begin, std::size_t end) {
-        for (int k = 0; k < 2; ++k)
-            for (std::size_t n = begin; n < end; ++n)
+void ExplicitSolver::impose_velocity() { // nodes that are not on a surface are free
+    for (int side = 0; side < 4; ++side)
+        for (const std::size_t n : boundaries_.surface(side).nodes())
+            for (int k = 0; k < 2; ++k)
                 if (fixed_.c[k][n] != 0.0) velocity_.c[k][n] = value_.c[k][n];
-    });
 }
 
 void ExplicitSolver::integrate(double dt, const VectorField& internal) {
     const Column& mass = motion_->mass();
     const double alpha = settings_.damping;
-    each_row([&](int, std::size_t begin, std::size_t end) {
+    motion_->each_row([&](int, std::size_t begin, std::size_t end) {
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = begin; n < end; ++n) {
                 if (mass[n] <= 0.0) continue;
@@ -92,7 +91,9 @@ void ExplicitSolver::integrate(double dt, const VectorField& internal) {
                     damping_.c[k][n] = 0.0;
                 } else { // Cundall's local damping opposes the velocity by a share of the force
                     reaction_.c[k][n] = 0.0;
-                    damping_.c[k][n] = v > 0.0 ? -alpha * std::abs(force) : v < 0.0 ? alpha * std::abs(force) : 0.0;
+                    damping_.c[k][n] = v > 0.0   ? -alpha * std::abs(force)
+                                       : v < 0.0 ? alpha * std::abs(force)
+                                                 : 0.0;
                     acceleration_.c[k][n] = (force + damping_.c[k][n]) / inertia;
                 }
             }
@@ -102,7 +103,7 @@ void ExplicitSolver::integrate(double dt, const VectorField& internal) {
 void ExplicitSolver::account(double dt) {
     const Column& mass = motion_->mass();
     const VectorField& straining = motion_->stress_first() ? velocity_before_ : velocity_;
-    each_row([&](int j, std::size_t begin, std::size_t end) {
+    motion_->each_row([&](int j, std::size_t begin, std::size_t end) {
         Energies row;
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = begin; n < end; ++n) {
@@ -133,9 +134,11 @@ void ExplicitSolver::step(double dt) {
         motion_->forces(internal_);
         integrate(dt, internal_);
         std::swap(velocity_, velocity_before_);
-        for (int k = 0; k < 2; ++k)
-            for (std::size_t n = 0; n < velocity_.c[k].size(); ++n)
-                velocity_.c[k][n] = velocity_before_.c[k][n] + dt * acceleration_.c[k][n];
+        motion_->each_row([&](int, std::size_t begin, std::size_t end) {
+            for (int k = 0; k < 2; ++k)
+                for (std::size_t n = begin; n < end; ++n)
+                    velocity_.c[k][n] = velocity_before_.c[k][n] + dt * acceleration_.c[k][n];
+        });
         impose_velocity();
         motion_->advance(acceleration_, velocity_, dt);
     } else {
@@ -166,8 +169,9 @@ double ExplicitSolver::largest_velocity() const {
 
 const std::vector<std::string>& ExplicitSolver::measure_names() {
     static const std::vector<std::string> names = {
-        "radius",          "initial_radius",  "area",          "initial_area", "normal_force", "displacement",  "enclosed_volume",
-        "kinetic_energy",  "internal_energy", "external_work", "damping_work", "energy_error", "kinetic_ratio", "largest_velocity"};
+        "radius",       "initial_radius",  "area",           "initial_area",    "normal_force",
+        "displacement", "enclosed_volume", "kinetic_energy", "internal_energy", "external_work",
+        "damping_work", "energy_error",    "kinetic_ratio",  "largest_velocity"};
     return names;
 }
 
@@ -184,7 +188,8 @@ double ExplicitSolver::normal_force(int side) const {
     for (const std::size_t n : boundaries_.surface(side).nodes()) {
         const double force = fixed_.c[k][n] == 0.0
                                  ? traction_.c[k][n]
-                                 : mass[n] * (settings_.mass_scaling * acceleration_.c[k][n] - gravity_[k]) - internal_.c[k][n];
+                                 : mass[n] * (settings_.mass_scaling * acceleration_.c[k][n] - gravity_[k]) -
+                                       internal_.c[k][n];
         total -= outward(side) * force;
     }
     return total;

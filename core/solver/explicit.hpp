@@ -24,8 +24,8 @@ class ExplicitSolver {
 
     double time() const { return time_; } // s
     int64_t steps() const { return steps_; }
-    // The length that the next step may have: the factor of the scene times the true limit, found anew when the soil has
-    // been strained by another 2 %.
+    // The length that the next step may have: the factor of the scene times the true limit, found anew when
+    // the soil has been strained by another 2 %.
     double allowed_step();
     double stability_limit() const { return limit_; } // s
     void step(double dt);                             // throws RunError
@@ -44,7 +44,6 @@ class ExplicitSolver {
     void integrate(double dt, const VectorField& internal); // forces to accelerations, on the grid (Eq. 9)
     void account(double dt);
     double normal_force(int side) const;
-    template <class F> void each_row(F f); // f(row, first node, end), in parallel
     void impose_velocity();
 
     const SolverSettings& settings_;
@@ -52,7 +51,8 @@ class ExplicitSolver {
     Model& model_;
     std::unique_ptr<Motion> motion_;
     Boundaries boundaries_;
-    VectorField internal_, internal_before_, traction_, acceleration_, velocity_, velocity_before_, damping_, reaction_, value_;
+    VectorField internal_, internal_before_, traction_, acceleration_, velocity_, velocity_before_, damping_,
+        reaction_, value_;
     FixedField fixed_;
     std::array<double, 4> initial_area_, initial_radius_;
     Energies energies_;

@@ -10,7 +10,8 @@
 namespace gault::core {
 namespace {
 
-const std::vector<std::string> field_names = {"density", "volume_ratio", "characteristic_length"}; // as HostField
+const std::vector<std::string> field_names = {"density", "volume_ratio",
+                                              "characteristic_length"}; // as HostField
 
 std::vector<gault_state> declared_states(const Instance& instance) {
     const auto& api = instance.api<gault_material_api>();
@@ -21,7 +22,9 @@ std::vector<gault_state> declared_states(const Instance& instance) {
     return {states, states + count};
 }
 
-std::string bounded(const char* text) { return {text, strnlen(text, GAULT_TEXT)}; }
+std::string bounded(const char* text) {
+    return {text, strnlen(text, GAULT_TEXT)};
+}
 
 } // namespace
 
@@ -34,21 +37,24 @@ Material::Material(const MaterialUse& use)
         rotates_states_ |= state.shape != GAULT_SCALAR && !finite_strain();
     }
     if (components_ > GAULT_MAX_STATE)
-        throw InputError(where, fmt::format("material '{}' declares {} state components; this host holds {}", name_,
-                                            components_, int(GAULT_MAX_STATE)));
+        throw InputError(where, fmt::format("material '{}' declares {} state components; this host holds {}",
+                                            name_, components_, int(GAULT_MAX_STATE)));
     for (const char* const* input = api().inputs; input && *input; ++input) {
         const auto found = std::find(field_names.begin(), field_names.end(), *input);
         if (found == field_names.end())
-            throw InputError(where, fmt::format("material '{}' asks for the field '{}', which this host does not offer{}",
-                                                name_, *input, suggestion(*input, field_names)));
+            throw InputError(
+                where, fmt::format("material '{}' asks for the field '{}', which this host does not offer{}",
+                                   name_, *input, suggestion(*input, field_names)));
         inputs_.push_back(static_cast<HostField>(found - field_names.begin()));
     }
     if (inputs_.size() > GAULT_MAX_INPUT)
-        throw InputError(where, fmt::format("material '{}' asks for {} fields; this host passes {}", name_, inputs_.size(),
-                                            int(GAULT_MAX_INPUT)));
+        throw InputError(where, fmt::format("material '{}' asks for {} fields; this host passes {}", name_,
+                                            inputs_.size(), int(GAULT_MAX_INPUT)));
 }
 
-bool Material::wants(HostField field) const { return std::find(inputs_.begin(), inputs_.end(), field) != inputs_.end(); }
+bool Material::wants(HostField field) const {
+    return std::find(inputs_.begin(), inputs_.end(), field) != inputs_.end();
+}
 
 Workspace::Workspace(std::size_t slots) : slots_(slots), columns_(count), zero_(slots) {}
 
@@ -60,13 +66,17 @@ double* Workspace::column(int k) {
 void attach_workspace(const Material& material, Workspace& workspace, BatchView& view) {
     for (int k = 0; k < 4; ++k)
         if (!view.strain[k]) view.strain[k] = workspace.column(Workspace::strain + k);
-    for (int k = 0; k < 6; ++k) view.stress_old[k] = workspace.column(Workspace::stress_old + k);
-    for (int k = 0; k < 5; ++k) view.flux[k] = workspace.column(Workspace::flux + k);
+    for (int k = 0; k < 6; ++k)
+        view.stress_old[k] = workspace.column(Workspace::stress_old + k);
+    for (int k = 0; k < 5; ++k)
+        view.flux[k] = workspace.column(Workspace::flux + k);
     for (int k = 0; k < 2; ++k)
         view.rotation[k] = material.rotates_states() ? workspace.column(Workspace::rotation + k) : nullptr;
     for (int k = 0; k < 5; ++k) {
-        view.gradient_old[k] = material.finite_strain() ? workspace.column(Workspace::gradient_old + k) : nullptr;
-        view.gradient_new[k] = material.finite_strain() ? workspace.column(Workspace::gradient_new + k) : nullptr;
+        view.gradient_old[k] =
+            material.finite_strain() ? workspace.column(Workspace::gradient_old + k) : nullptr;
+        view.gradient_new[k] =
+            material.finite_strain() ? workspace.column(Workspace::gradient_new + k) : nullptr;
     }
     const bool ratio = material.wants(HostField::density) || material.wants(HostField::volume_ratio);
     view.volume_ratio = ratio ? workspace.column(Workspace::volume_ratio) : nullptr;
@@ -75,8 +85,8 @@ void attach_workspace(const Material& material, Workspace& workspace, BatchView&
 namespace {
 
 // State components of a batch, rotated where they are tensors or vectors: x' = c x + s y, y' = c y - s x.
-void rotate_states(const Material& material, const Column* state, std::size_t first, std::size_t n, const BatchView& view,
-                   double* const* out) {
+void rotate_states(const Material& material, const Column* state, std::size_t first, std::size_t n,
+                   const BatchView& view, double* const* out) {
     for (const StateInfo& info : material.states()) {
         const double* in[6];
         double* to[6];
@@ -85,7 +95,8 @@ void rotate_states(const Material& material, const Column* state, std::size_t fi
             to[k] = out[info.first + k];
         }
         if (info.declared.shape == GAULT_SCALAR || !material.rotates_states()) {
-            for (int k = 0; k < static_cast<int>(info.declared.shape); ++k) std::memcpy(to[k], in[k], n * sizeof(double));
+            for (int k = 0; k < static_cast<int>(info.declared.shape); ++k)
+                std::memcpy(to[k], in[k], n * sizeof(double));
             continue;
         }
         for (std::size_t i = 0; i < n; ++i) {
@@ -128,7 +139,8 @@ struct Call { // a gault_points over a batch, with what it points at
         }
         p.suggest = 0.5;
         if (!view.gradient_old[0]) return;
-        static constexpr int position[9] = {0, 1, -1, 2, 3, -1, -1, -1, 4}; // of F in the kernels' five columns
+        static constexpr int position[9] = {0,  1,  -1, 2, 3,
+                                            -1, -1, -1, 4}; // of F in the kernels' five columns
         for (int k = 0; k < 9; ++k) {
             p.F_old[k] = position[k] < 0 ? workspace.zero() : view.gradient_old[position[k]];
             p.F_new[k] = position[k] < 0 ? workspace.zero() : view.gradient_new[position[k]];
@@ -144,7 +156,8 @@ gault_status call(const Material& material, gault_points& p, gault_error& error)
 }
 
 // Repeats the update in `pieces` equal parts of the increment, each starting where the one before ended.
-gault_status update_in_pieces(const Material& material, const Call& whole, std::size_t n, int pieces, gault_error& error) {
+gault_status update_in_pieces(const Material& material, const Call& whole, std::size_t n, int pieces,
+                              gault_error& error) {
     Call part = whole;
     std::vector<Column> copies;
     copies.reserve(6 + GAULT_MAX_STATE + 6 + 18);
@@ -158,10 +171,12 @@ gault_status update_in_pieces(const Material& material, const Call& whole, std::
     for (int k = 0; k < 6; ++k) {
         part.p.stress_old[k] = stress[k] = copy(whole.p.stress_old[k]);
         double* strain = copy(whole.p.strain[k]);
-        for (std::size_t i = 0; i < n; ++i) strain[i] /= pieces;
+        for (std::size_t i = 0; i < n; ++i)
+            strain[i] /= pieces;
         part.p.strain[k] = strain;
     }
-    for (int k = 0; k < material.state_components(); ++k) part.p.state_old[k] = state[k] = copy(whole.p.state_old[k]);
+    for (int k = 0; k < material.state_components(); ++k)
+        part.p.state_old[k] = state[k] = copy(whole.p.state_old[k]);
     double *from[9] = {}, *to[9] = {};
     for (int k = 0; k < 9 && whole.p.F_old[0]; ++k) {
         part.p.F_old[k] = from[k] = copy(whole.p.F_old[k]);
@@ -177,22 +192,29 @@ gault_status update_in_pieces(const Material& material, const Call& whole, std::
                 to[k][i] = whole.p.F_old[k][i] + piece * step;
             }
         if (const gault_status status = call(material, part.p, error); status != GAULT_OK) return status;
-        for (int k = 0; k < 6; ++k) std::copy(part.p.stress[k], part.p.stress[k] + n, stress[k]);
-        for (int k = 0; k < material.state_components(); ++k) std::copy(part.p.state[k], part.p.state[k] + n, state[k]);
+        for (int k = 0; k < 6; ++k)
+            std::copy(part.p.stress[k], part.p.stress[k] + n, stress[k]);
+        for (int k = 0; k < material.state_components(); ++k)
+            std::copy(part.p.state[k], part.p.state[k] + n, state[k]);
     }
     return GAULT_OK;
 }
 
-void fill_inputs(const Material& material, gault_points& p, const BatchView& view, Workspace& workspace, std::size_t n,
-                 const GridView& grid) {
+void fill_inputs(const Material& material, gault_points& p, const BatchView& view, Workspace& workspace,
+                 std::size_t n, const GridView& grid) {
     for (std::size_t k = 0; k < material.inputs().size(); ++k) {
         double* column = workspace.column(Workspace::input + static_cast<int>(k));
         for (std::size_t i = 0; i < n; ++i) {
             switch (material.inputs()[k]) {
-            case HostField::density: column[i] = material.density() / view.volume_ratio[i]; break;
-            case HostField::volume_ratio: column[i] = view.volume_ratio[i]; break;
+            case HostField::density:
+                column[i] = material.density() / view.volume_ratio[i];
+                break;
+            case HostField::volume_ratio:
+                column[i] = view.volume_ratio[i];
+                break;
             case HostField::characteristic_length:
-                column[i] = std::sqrt(grid.x.length[view.column[i / page_slots]] * grid.y.length[view.cell_row]);
+                column[i] =
+                    std::sqrt(grid.x.length[view.column[i / page_slots]] * grid.y.length[view.cell_row]);
                 break;
             }
         }
@@ -202,34 +224,41 @@ void fill_inputs(const Material& material, gault_points& p, const BatchView& vie
 
 } // namespace
 
-UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch, const BatchView& view,
-                           Workspace& workspace, const Moment& moment, const GridView& grid) {
+UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch,
+                           const BatchView& view, Workspace& workspace, const Moment& moment,
+                           const GridView& grid) {
     const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
     const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
     if (n == 0) return {};
     Call whole(material, points, first, n, view, workspace, moment);
     double* old[GAULT_MAX_STATE];
-    for (int k = 0; k < material.state_components(); ++k) old[k] = workspace.column(Workspace::state_old + k);
+    for (int k = 0; k < material.state_components(); ++k)
+        old[k] = workspace.column(Workspace::state_old + k);
     rotate_states(material, points.columns().state.data(), first, n, view, old);
     fill_inputs(material, whole.p, view, workspace, n, grid);
 
     gault_error error;
     gault_status status = call(material, whole.p, error);
     const double fraction = std::clamp(whole.p.suggest, 1.0 / 1024.0, 0.5);
-    for (int pieces = static_cast<int>(std::ceil(1.0 / fraction)); status == GAULT_RETRY && pieces <= 1024; pieces *= 2)
+    for (int pieces = static_cast<int>(std::ceil(1.0 / fraction)); status == GAULT_RETRY && pieces <= 1024;
+         pieces *= 2)
         status = update_in_pieces(material, whole, n, pieces, error);
     if (status == GAULT_OK) return {};
-    const std::size_t slot = first + static_cast<std::size_t>(std::clamp<int64_t>(error.point, 0, static_cast<int64_t>(n) - 1));
-    return {status, slot, status == GAULT_RETRY ? "the step had to be divided more than 1024 times" : bounded(error.text)};
+    const std::size_t slot =
+        first + static_cast<std::size_t>(std::clamp<int64_t>(error.point, 0, static_cast<int64_t>(n) - 1));
+    return {status, slot,
+            status == GAULT_RETRY ? "the step had to be divided more than 1024 times" : bounded(error.text)};
 }
 
 namespace {
 
 // Calls the model on every batch with a zero increment and the present stress; `prepare` adds outputs.
 template <class Prepare, class Function>
-void call_at_rest(const Material& material, Points& points, const GridView& grid, Prepare prepare, Function function) {
+void call_at_rest(const Material& material, Points& points, const GridView& grid, Prepare prepare,
+                  Function function) {
     std::size_t most = 0;
-    for (const Batch& batch : points.layout().batches) most = std::max<std::size_t>(most, batch.pages * page_slots);
+    for (const Batch& batch : points.layout().batches)
+        most = std::max<std::size_t>(most, batch.pages * page_slots);
     Workspace workspace(most);
     BatchView view{};
     attach_workspace(material, workspace, view);
@@ -239,8 +268,10 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
         const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
         if (n == 0) continue;
         PointColumns& columns = points.columns();
-        for (int k = 0; k < 4; ++k) std::fill_n(view.strain[k], n, 0.0);
-        for (int k = 0; k < 6; ++k) std::copy_n(columns.stress[k].data() + first, n, view.stress_old[k]);
+        for (int k = 0; k < 4; ++k)
+            std::fill_n(view.strain[k], n, 0.0);
+        for (int k = 0; k < 6; ++k)
+            std::copy_n(columns.stress[k].data() + first, n, view.stress_old[k]);
         if (view.volume_ratio) std::fill_n(view.volume_ratio, n, 1.0);
         for (int k = 0; k < 5 && view.gradient_old[0]; ++k) {
             std::fill_n(view.gradient_old[k], n, k == 0 || k > 2 ? 1.0 : 0.0);
@@ -261,7 +292,8 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
 
 } // namespace
 
-void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus, Column& shear) {
+void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus,
+                     Column& shear) {
     modulus.resize(points.slots());
     shear.resize(points.slots());
     call_at_rest(
@@ -269,8 +301,10 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
         [&](gault_points& p, std::size_t first, std::size_t n, std::vector<Column>& spare) {
             p.modulus = modulus.data() + first;
             p.shear_modulus = shear.data() + first;
-            for (int k = 0; k < 6; ++k) p.stress[k] = spare[k].data();
-            for (int k = 0; k < material.state_components(); ++k) p.state[k] = spare[6 + k].data();
+            for (int k = 0; k < 6; ++k)
+                p.stress[k] = spare[k].data();
+            for (int k = 0; k < material.state_components(); ++k)
+                p.state[k] = spare[6 + k].data();
             (void)n;
         },
         [&](gault_points& p, gault_error& error) {
@@ -281,8 +315,8 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
 void start_material(const Material& material, Points& points, const GridView& grid) {
     for (const StateInfo& info : material.states())
         for (int k = 0; k < static_cast<int>(info.declared.shape); ++k)
-            std::fill(points.columns().state[info.first + k].begin(), points.columns().state[info.first + k].end(),
-                      info.declared.initial);
+            std::fill(points.columns().state[info.first + k].begin(),
+                      points.columns().state[info.first + k].end(), info.declared.initial);
     if (!material.api().start) return;
     call_at_rest(
         material, points, grid, [](gault_points&, std::size_t, std::size_t, std::vector<Column>&) {},

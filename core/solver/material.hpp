@@ -52,8 +52,19 @@ class Workspace {
     explicit Workspace(std::size_t slots); // of the largest batch
 
     double* column(int k); // the k-th scratch column, made when first asked for
-    enum Use { strain = 0, stress_old = 4, rotation = 10, flux = 12, gradient_old = 17, gradient_new = 22,
-               volume_ratio = 27, input = 28, probe = 44, state_old = 50, count = state_old + GAULT_MAX_STATE };
+    enum Use {
+        strain = 0,
+        stress_old = 4,
+        rotation = 10,
+        flux = 12,
+        gradient_old = 17,
+        gradient_new = 22,
+        volume_ratio = 27,
+        input = 28,
+        probe = 44,
+        state_old = 50,
+        count = state_old + GAULT_MAX_STATE
+    };
     const double* zero() const { return zero_.data(); }
 
   private:
@@ -75,13 +86,16 @@ struct UpdateFailure {
 // Points the kernel's workspace arrays of `view` at what this material needs.
 void attach_workspace(const Material& material, Workspace& workspace, BatchView& view);
 
-// Rotates tensor and vector states, fills the inputs, and calls the model; on RETRY the increment is divided. New stress
-// and states are in the points' columns afterwards.
-UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch, const BatchView& view,
-                           Workspace& workspace, const Moment& moment, const GridView& grid);
+// Rotates tensor and vector states, fills the inputs, and calls the model; on RETRY the increment is divided.
+// New stress and states are in the points' columns afterwards.
+UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch,
+                           const BatchView& view, Workspace& workspace, const Moment& moment,
+                           const GridView& grid);
 
-// The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` have points.slots() entries.
-void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus, Column& shear);
+// The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` have points.slots()
+// entries.
+void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus,
+                     Column& shear);
 
 // Lets the model set its states from the initial stress. RunError when it is not admissible.
 void start_material(const Material& material, Points& points, const GridView& grid);

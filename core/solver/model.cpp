@@ -34,23 +34,26 @@ Rule gauss_rule(int n) {
     return rule;
 }
 
-// Equally spaced points. Their weights are not quite equal: they integrate polynomials up to degree n - 1 exactly, so that
-// mass and internal force agree with the surface loads from the first step.
+// Equally spaced points. Their weights are not quite equal: they integrate polynomials up to degree n - 1
+// exactly, so that mass and internal force agree with the surface loads from the first step.
 Rule uniform_rule(int n) {
     Rule rule;
-    for (int i = 0; i < n; ++i) rule.at.push_back((i + 0.5) / n);
+    for (int i = 0; i < n; ++i)
+        rule.at.push_back((i + 0.5) / n);
     Eigen::MatrixXd powers(n, n);
     Eigen::VectorXd moments(n);
     for (int k = 0; k < n; ++k) {
         moments[k] = 1.0 / (k + 1.0);
-        for (int i = 0; i < n; ++i) powers(k, i) = std::pow(rule.at[i], k);
+        for (int i = 0; i < n; ++i)
+            powers(k, i) = std::pow(rule.at[i], k);
     }
     const Eigen::VectorXd weights = powers.partialPivLu().solve(moments);
     rule.weight.assign(weights.begin(), weights.end());
     return rule;
 }
 
-std::vector<int> assign_materials(const Scene& scene, const Grid& grid, std::vector<std::string>& description) {
+std::vector<int> assign_materials(const Scene& scene, const Grid& grid,
+                                  std::vector<std::string>& description) {
     const int columns = grid.axis(0).cells(), rows = grid.axis(1).cells();
     std::vector<int> material(static_cast<std::size_t>(columns) * rows, scene.base_material);
     for (const Region& region : scene.regions) {
@@ -59,12 +62,15 @@ std::vector<int> assign_materials(const Scene& scene, const Grid& grid, std::vec
             for (int i = 0; i < columns; ++i) {
                 const double x = grid.axis(0).origin()[i] + 0.5 * grid.axis(0).length()[i];
                 const double y = grid.axis(1).origin()[j] + 0.5 * grid.axis(1).length()[j];
-                if (x < region.lower[0] || x > region.upper[0] || y < region.lower[1] || y > region.upper[1]) continue;
+                if (x < region.lower[0] || x > region.upper[0] || y < region.lower[1] || y > region.upper[1])
+                    continue;
                 material[static_cast<std::size_t>(j) * columns + i] = region.material;
                 ++cells;
             }
-        if (cells == 0) throw InputError(region.where, fmt::format("region '{}' holds no cell centre", region.name));
-        description.push_back(fmt::format("region {}: {} cells of '{}'", region.name, cells, scene.materials[region.material].name));
+        if (cells == 0)
+            throw InputError(region.where, fmt::format("region '{}' holds no cell centre", region.name));
+        description.push_back(fmt::format("region {}: {} cells of '{}'", region.name, cells,
+                                          scene.materials[region.material].name));
     }
     return material;
 }
@@ -83,7 +89,8 @@ double Model::vertical_stress(const Scene& scene, int column, double y) const {
     const double g = -scene.gravity[1];
     const Axis& axis = grid.axis(1);
     const auto density = [&](int row) {
-        return materials[material_of_cell[static_cast<std::size_t>(row) * grid.axis(0).cells() + column]].density();
+        return materials[material_of_cell[static_cast<std::size_t>(row) * grid.axis(0).cells() + column]]
+            .density();
     };
     double stress = initial.vertical + density(axis.cells() - 1) * g * initial.depth;
     for (int row = axis.cells() - 1; row >= 0; --row) {
@@ -104,23 +111,30 @@ std::function<SoilBehind(const std::array<double, 2>&)> Model::behind(const Scen
         const int m = material_of_cell[cell];
         const Layout& layout = points[m].layout();
         int page = layout.batches[layout.batch_of_cell[cell]].first_page; // the cell's first
-        while (layout.page_column[page] != column) ++page;
+        while (layout.page_column[page] != column)
+            ++page;
         const std::size_t slot = static_cast<std::size_t>(page) * page_slots;
         const double vertical = -vertical_stress(scene, column, at[1]), rho = materials[m].density();
         const double p_wave = moduli[m][0][slot], shear = moduli[m][1][slot];
-        return {std::sqrt(rho * p_wave), std::sqrt(rho * shear), shear, {scene.initial_stress.k0 * vertical, vertical, 0.0}};
+        return {std::sqrt(rho * p_wave),
+                std::sqrt(rho * shear),
+                shear,
+                {scene.initial_stress.k0 * vertical, vertical, 0.0}};
     };
 }
 
 Model build_model(const Scene& scene) {
     const int degree = scene.basis == Basis::quadratic ? 2 : 1;
     const auto axis = [&](int k) {
-        return Axis(Axis::graded(scene.geometry.lower[k], scene.geometry.upper[k], scene.axes[k].cells, scene.axes[k].ratio), degree);
+        return Axis(Axis::graded(scene.geometry.lower[k], scene.geometry.upper[k], scene.axes[k].cells,
+                                 scene.axes[k].ratio),
+                    degree);
     };
     Model model{Grid(axis(0), axis(1), scene.symmetry == Symmetry::axisymmetric), {}, {}, {}, {}};
     const Grid& grid = model.grid;
     model.material_of_cell = assign_materials(scene, grid, model.description);
-    for (const MaterialUse& use : scene.materials) model.materials.emplace_back(use);
+    for (const MaterialUse& use : scene.materials)
+        model.materials.emplace_back(use);
 
     const int side = static_cast<int>(std::lround(std::sqrt(scene.points_per_cell)));
     const Rule rule = scene.placement == Placement::gauss ? gauss_rule(side) : uniform_rule(side);
@@ -145,7 +159,9 @@ Model build_model(const Scene& scene) {
                     s.columns.place[1].push_back(updated ? y : rule.at[b]);
                     s.columns.measure.push_back(updated ? volume : per_radius);
                     for (int k = 0; k < 6; ++k)
-                        s.columns.stress[k].push_back(k == 1 ? vertical : k < 3 ? scene.initial_stress.k0 * vertical : 0.0);
+                        s.columns.stress[k].push_back(k == 1  ? vertical
+                                                      : k < 3 ? scene.initial_stress.k0 * vertical
+                                                              : 0.0);
                     if (updated) {
                         s.columns.reference[0].push_back(x);
                         s.columns.reference[1].push_back(y);
@@ -160,11 +176,14 @@ Model build_model(const Scene& scene) {
         const std::size_t n = s.cell.size();
         s.columns.state.assign(model.materials[m].state_components(), Column(n));
         if (updated)
-            for (Column& c : s.columns.velocity) c.resize(n);
+            for (Column& c : s.columns.velocity)
+                c.resize(n);
         if (updated && scene.solver.viscosity > 0.0)
-            for (Column& c : s.columns.strain) c.resize(n);
+            for (Column& c : s.columns.strain)
+                c.resize(n);
         if (updated && model.materials[m].finite_strain())
-            for (int k = 0; k < 5; ++k) s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
+            for (int k = 0; k < 5; ++k)
+                s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
         model.points.emplace_back(std::move(s.columns), s.cell, std::move(s.identity),
                                   LayoutRequest{columns, grid.axis(1).cells(), degree, updated});
         start_material(model.materials[m], model.points[m], view_of(grid));

@@ -32,7 +32,8 @@ void Motion::plan() {
     patches_.assign(patch, 0.0);
     outcomes_.assign(tasks_.size(), {});
     workspaces_.clear();
-    for (int t = 0; t < team_.threads(); ++t) workspaces_.emplace_back(most);
+    for (int t = 0; t < team_.threads(); ++t)
+        workspaces_.emplace_back(most);
 }
 
 bool Motion::plan_is_stale() const {
@@ -43,7 +44,8 @@ bool Motion::plan_is_stale() const {
 
 GridView view_of(const Grid& grid) {
     const auto axis = [](const Axis& a) {
-        return AxisView{a.origin().data(), a.length().data(), a.inverse_length().data(), a.left().data(), a.right().data()};
+        return AxisView{a.origin().data(), a.length().data(), a.inverse_length().data(), a.left().data(),
+                        a.right().data()};
     };
     return {axis(grid.axis(0)), axis(grid.axis(1)), grid.layout().row};
 }
@@ -68,9 +70,12 @@ BatchView Motion::view(const Task& task) {
     }
     v.measure = at(columns.measure);
     v.mass = at(columns.mass);
-    for (int k = 0; k < 6; ++k) v.stress[k] = at(columns.stress[k]);
-    for (int k = 0; k < 4; ++k) v.strain[k] = at(columns.strain[k]);
-    for (int k = 0; k < 5; ++k) v.deformation[k] = at(columns.deformation[k]);
+    for (int k = 0; k < 6; ++k)
+        v.stress[k] = at(columns.stress[k]);
+    for (int k = 0; k < 4; ++k)
+        v.strain[k] = at(columns.strain[k]);
+    for (int k = 0; k < 5; ++k)
+        v.deformation[k] = at(columns.deformation[k]);
     if (!viscosity_.empty()) {
         v.viscous_lame = viscosity_[task.material][0];
         v.viscous_shear = viscosity_[task.material][1];
@@ -78,31 +83,37 @@ BatchView Motion::view(const Task& task) {
     return v;
 }
 
-UpdateFailure Motion::update_stress(const Task& task, const BatchView& view, Workspace& workspace, const Moment& moment) {
+UpdateFailure Motion::update_stress(const Task& task, const BatchView& view, Workspace& workspace,
+                                    const Moment& moment) {
     const Batch& batch = points_[task.material].layout().batches[task.batch];
     static std::mutex legacy; // models with global state are called one at a time
     std::unique_lock<std::mutex> alone(legacy, std::defer_lock);
     if (materials_[task.material].one_at_a_time()) alone.lock();
-    return update_batch(materials_[task.material], points_[task.material], batch, view, workspace, moment, grid_view());
+    return update_batch(materials_[task.material], points_[task.material], batch, view, workspace, moment,
+                        grid_view());
 }
 
 void Motion::clear_patch(const Task& task, int components) {
     const Batch& batch = points_[task.material].layout().batches[task.batch];
-    std::fill_n(patches_.data() + task.patch, static_cast<std::size_t>(components) * batch.patch_row * (grid_.degree() + 1), 0.0);
+    std::fill_n(patches_.data() + task.patch,
+                static_cast<std::size_t>(components) * batch.patch_row * (grid_.degree() + 1), 0.0);
 }
 
 void Motion::reduce(const std::vector<Column*>& fields) {
     const NodeLayout& layout = grid_.layout();
     const int degree = grid_.degree(), cell_rows = grid_.axis(1).cells();
-    team_.each(layout.ny, [&](int j, int) {
-        for (Column* field : fields) std::fill_n(field->data() + layout.row_begin(j), layout.row, 0.0);
+    each_row([&](int j, std::size_t begin, std::size_t) {
+        for (Column* field : fields)
+            std::fill_n(field->data() + begin, layout.row, 0.0);
         for (int row = std::max(0, j - degree); row <= std::min(j, cell_rows - 1); ++row)
             for (const int t : tasks_of_row_[row]) {
                 const Batch& batch = points_[tasks_[t].material].layout().batches[tasks_[t].batch];
-                const double* patch = patches_.data() + tasks_[t].patch + static_cast<std::ptrdiff_t>(j - row) * batch.patch_row;
+                const double* patch = patches_.data() + tasks_[t].patch +
+                                      static_cast<std::ptrdiff_t>(j - row) * batch.patch_row;
                 for (Column* field : fields) {
                     double* to = field->data() + layout.index(batch.first_column, j);
-                    for (int i = 0; i < batch.patch_row; ++i) to[i] += patch[i];
+                    for (int i = 0; i < batch.patch_row; ++i)
+                        to[i] += patch[i];
                     patch += static_cast<std::ptrdiff_t>(batch.patch_row) * (degree + 1);
                 }
             }
@@ -112,22 +123,27 @@ void Motion::reduce(const std::vector<Column*>& fields) {
 double Motion::probe_step(const VectorField& v) const {
     double fastest = 0.0, shortest = grid_.axis(0).length()[0];
     for (int k = 0; k < 2; ++k) {
-        for (const double x : v.c[k]) fastest = std::max(fastest, std::abs(x));
-        for (const double h : grid_.axis(k).length()) shortest = std::min(shortest, h);
+        for (const double x : v.c[k])
+            fastest = std::max(fastest, std::abs(x));
+        for (const double h : grid_.axis(k).length())
+            shortest = std::min(shortest, h);
     }
     return 1e-7 * shortest / fastest;
 }
 
 void Motion::elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view,
-                           Workspace& workspace) {
-    const std::size_t first = static_cast<std::size_t>(points_[task.material].layout().batches[task.batch].first_page) * page_slots;
+                            Workspace& workspace) {
+    const std::size_t first =
+        static_cast<std::size_t>(points_[task.material].layout().batches[task.batch].first_page) * page_slots;
     view.viscous_lame = view.viscous_shear = 0.0;
     double* stress[4];
-    for (int k = 0; k < 4; ++k) view.stress[k] = stress[k] = workspace.column(Workspace::probe + k);
+    for (int k = 0; k < 4; ++k)
+        view.stress[k] = stress[k] = workspace.column(Workspace::probe + k);
     for (int i = 0; i < view.pages * page_slots; ++i) {
         const double shear = moduli[1][first + i], lame = moduli[0][first + i] - 2.0 * shear;
         const double volumetric = lame * (view.strain[0][i] + view.strain[1][i] + view.strain[2][i]);
-        for (int k = 0; k < 4; ++k) stress[k][i] = ((k < 3 ? volumetric : 0.0) + 2.0 * shear * view.strain[k][i]) / dt;
+        for (int k = 0; k < 4; ++k)
+            stress[k][i] = ((k < 3 ? volumetric : 0.0) + 2.0 * shear * view.strain[k][i]) / dt;
     }
 }
 
@@ -139,21 +155,25 @@ void Motion::settle(const std::vector<Outcome>& outcomes) {
         const Batch& batch = points_[task.material].layout().batches[task.batch];
         updates_ += points_[task.material].layout().batches[task.batch].pages * page_slots;
         if (strain.bad >= 0) {
-            const std::size_t slot = static_cast<std::size_t>(batch.first_page) * page_slots + static_cast<std::size_t>(strain.bad);
-            throw RunError(fmt::format("the run became unstable: {} would be strained by more than {} in one step, or turned "
-                                       "inside out",
-                                       where(task.material, slot), strain_limit));
+            const std::size_t slot = static_cast<std::size_t>(batch.first_page) * page_slots +
+                                     static_cast<std::size_t>(strain.bad);
+            throw RunError(fmt::format(
+                "the run became unstable: {} would be strained by more than {} in one step, or turned "
+                "inside out",
+                where(task.material, slot), strain_limit));
         }
         if (failure.status != GAULT_OK)
-            throw RunError(fmt::format("{}: {}", where(task.material, failure.slot),
-                                       failure.text.empty() ? "the model gave no result and no reason" : failure.text));
+            throw RunError(
+                fmt::format("{}: {}", where(task.material, failure.slot),
+                            failure.text.empty() ? "the model gave no result and no reason" : failure.text));
         largest_strain_ = std::max(largest_strain_, strain.largest);
     }
 }
 
 std::size_t Motion::point_count() const {
     std::size_t n = 0;
-    for (const Points& p : points_) n += p.count();
+    for (const Points& p : points_)
+        n += p.count();
     return n;
 }
 

@@ -1,6 +1,7 @@
 // What differs between the two descriptions of motion; everything else of the solver is shared.
-//   total    weights at the reference positions, computed from fixed cell coordinates; the walls are on the grid for ever
-//   updated  points move through the grid (Eq. 16), which is stretched so that its rim stays on the walls
+//   total    weights at the reference positions, computed from fixed cell coordinates; the walls are on the
+//   grid for ever updated  points move through the grid (Eq. 16), which is stretched so that its rim stays on
+//   the walls
 #pragma once
 #include "core/base/team.hpp"
 #include "core/grid/grid.hpp"
@@ -15,7 +16,7 @@
 
 namespace gault::core {
 
-struct PhaseClock { // seconds spent, by phase
+struct PhaseClock {                                                     // seconds spent, by phase
     double strain = 0, material = 0, force = 0, velocity = 0, sort = 0; // of the first thread
     bool on = false;
 };
@@ -56,27 +57,32 @@ class Motion {
     // Internal forces on the nodes at the present state, N.
     virtual void forces(VectorField& internal) = 0;
 
-    // Stress update last: point velocities take `a` over dt (Eq. 10); the grid velocity is mapped from them anew (Eq. 6).
+    // Stress update last: point velocities take `a` over dt (Eq. 10); the grid velocity is mapped from them
+    // anew (Eq. 6).
     virtual void accelerate(const VectorField& a, double dt, VectorField& velocity) = 0;
-    // Strains over dt from the grid velocity, new stresses, and (stress update last) new positions. Throws RunError.
+    // Strains over dt from the grid velocity, new stresses, and (stress update last) new positions. Throws
+    // RunError.
     virtual void deform(const VectorField& velocity, const Moment& moment) = 0;
-    // Stress update first: the grid velocity at the start of the step, then point velocities and positions at its end.
+    // Stress update first: the grid velocity at the start of the step, then point velocities and positions at
+    // its end.
     virtual bool stress_first() const { return false; }
     virtual void map_velocity(VectorField&) {}
     virtual void advance(const VectorField&, const VectorField&, double) {}
 
-    // For the stability limit: K v with the moduli given (per material, per slot), and the product of the consistent mass
-    // with a nodal field, both at the present state.
-    virtual void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) = 0;
+    // For the stability limit: K v with the moduli given (per material, per slot), and the product of the
+    // consistent mass with a nodal field, both at the present state.
+    virtual void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli,
+                           VectorField& out) = 0;
     virtual void consistent_mass(const VectorField& w, VectorField& out) = 0;
 
     virtual double kinetic_energy() = 0; // J, of the points, with mass scaling left out
     virtual PointRecord record(int material, std::size_t slot) const = 0;
 
-    // Viscous moduli (lame, shear; Pa) of every material: stress of the step's strain that resists in the forces only.
+    // Viscous moduli (lame, shear; Pa) of every material: stress of the step's strain that resists in the
+    // forces only.
     void set_viscosity(std::vector<std::array<double, 2>> moduli) { viscosity_ = std::move(moduli); }
 
-    int64_t configuration() const { return configuration_; } // counts the times that anything moved
+    int64_t configuration() const { return configuration_; }  // counts the times that anything moved
     double largest_strain() const { return largest_strain_; } // component of the last step
     int64_t updates() const { return updates_; }              // constitutive updates so far
     PhaseClock& clock() { return clock_; }
@@ -84,7 +90,14 @@ class Motion {
     const std::vector<Material>& materials() const { return materials_; }
     const std::vector<Points>& points() const { return points_; }
     std::size_t point_count() const;
-    Team& team() { return team_; }
+    // f(row of nodes, index of its first node, index past its last), shared among the threads.
+    template <class F>
+    void each_row(F f) {
+        const NodeLayout& layout = grid_.layout();
+        team_.each(layout.ny, [&](int j, int) {
+            f(j, layout.row_begin(j), layout.row_begin(j) + static_cast<std::size_t>(layout.row));
+        });
+    }
     std::string where(int material, std::size_t slot) const; // "point 17 of 'sand' at (0.02, 0.1) m"
 
   protected:
@@ -92,16 +105,18 @@ class Motion {
         int material, batch;
         std::size_t patch; // offset into patches_, for three components
     };
-    void plan();               // after a change of layout
+    void plan(); // after a change of layout
     bool plan_is_stale() const;
     GridView grid_view() const { return view_of(grid_); }
     BatchView view(const Task& task); // without workspace
     // Sums the patches into nodal fields, in a fixed order.
     void reduce(const std::vector<Column*>& fields);
-    UpdateFailure update_stress(const Task& task, const BatchView& view, Workspace& workspace, const Moment& moment);
+    UpdateFailure update_stress(const Task& task, const BatchView& view, Workspace& workspace,
+                                const Moment& moment);
     void clear_patch(const Task& task, int components);
     // Points the view's stress at workspace columns with the elastic stress rate of the strains in the view.
-    void elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view, Workspace& workspace);
+    void elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view,
+                        Workspace& workspace);
     double probe_step(const VectorField& v) const; // short enough for strains to be linear in v
 
     struct Outcome { // of a batch's strain and stress update
@@ -129,9 +144,9 @@ class Motion {
     int64_t updates_ = 0, configuration_ = 0;
 };
 
-std::unique_ptr<Motion> make_total_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points,
-                                        int threads);
-std::unique_ptr<Motion> make_updated_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points,
-                                          int threads, bool stress_first);
+std::unique_ptr<Motion> make_total_motion(Grid& grid, std::vector<Material>& materials,
+                                          std::vector<Points>& points, int threads);
+std::unique_ptr<Motion> make_updated_motion(Grid& grid, std::vector<Material>& materials,
+                                            std::vector<Points>& points, int threads, bool stress_first);
 
 } // namespace gault::core

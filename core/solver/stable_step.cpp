@@ -10,18 +10,21 @@ namespace {
 double dot(const VectorField& a, const VectorField& b) {
     double total = 0.0;
     for (int k = 0; k < 2; ++k)
-        for (std::size_t n = 0; n < a.c[k].size(); ++n) total += a.c[k][n] * b.c[k][n];
+        for (std::size_t n = 0; n < a.c[k].size(); ++n)
+            total += a.c[k][n] * b.c[k][n];
     return total;
 }
 
 void scale(VectorField& a, double factor) {
     for (Column& c : a.c)
-        for (double& x : c) x *= factor;
+        for (double& x : c)
+            x *= factor;
 }
 
 void subtract(VectorField& a, double factor, const VectorField& b) {
     for (int k = 0; k < 2; ++k)
-        for (std::size_t n = 0; n < a.c[k].size(); ++n) a.c[k][n] -= factor * b.c[k][n];
+        for (std::size_t n = 0; n < a.c[k].size(); ++n)
+            a.c[k][n] -= factor * b.c[k][n];
 }
 
 // a := M^-1 a on free components, 0 on fixed ones.
@@ -38,7 +41,8 @@ VectorField start_vector(const Column& mass, const FixedField& fixed, const Node
     for (int k = 0; k < 2; ++k)
         for (std::size_t n = 0; n < mass.size(); ++n) {
             state ^= state << 13, state ^= state >> 7, state ^= state << 17;
-            if (mass[n] > 0.0 && fixed.c[k][n] == 0.0) q.c[k][n] = static_cast<double>(state >> 11) * 0x1p-53 - 0.5;
+            if (mass[n] > 0.0 && fixed.c[k][n] == 0.0)
+                q.c[k][n] = static_cast<double>(state >> 11) * 0x1p-53 - 0.5;
         }
     return q;
 }
@@ -74,12 +78,14 @@ double stable_step(Motion& motion, const std::vector<std::array<Column, 2>>& mod
         beta = norm = std::sqrt(std::max(0.0, dot(q, product)));
         if (k % check != check - 1 && k + 1 < most && norm > 1e-12 * alpha) continue;
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-        solver.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size())),
-                                      Eigen::Map<Eigen::VectorXd>(beside.data(), static_cast<Eigen::Index>(beside.size())),
-                                      Eigen::ComputeEigenvectors);
+        solver.computeFromTridiagonal(
+            Eigen::Map<Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size())),
+            Eigen::Map<Eigen::VectorXd>(beside.data(), static_cast<Eigen::Index>(beside.size())),
+            Eigen::ComputeEigenvectors);
         const Eigen::Index k_top = solver.eigenvalues().size() - 1; // in increasing order
         top = solver.eigenvalues()[k_top];
-        const double residual = beta * std::abs(solver.eigenvectors()(k_top, k_top)); // bounds the error of `top`
+        const double residual =
+            beta * std::abs(solver.eigenvectors()(k_top, k_top)); // bounds the error of `top`
         if (residual < 1e-3 * top) break;
     }
     return 2.0 * std::sqrt(mass_scaling / top);

@@ -35,7 +35,8 @@ Surface::Surface(const Motion& motion, int side) : side_(side), axisymmetric_(mo
         }
     at_.resize(facets_.size());
     refresh(motion);
-    for (const Now& now : at_) reference_.push_back(now.position);
+    for (const Now& now : at_)
+        reference_.push_back(now.position);
 }
 
 void Surface::refresh(const Motion& motion) {
@@ -53,7 +54,9 @@ void Surface::refresh(const Motion& motion) {
         // The outward normal is the tangent turned by a quarter: left of +y on low x, right of it on high x.
         const double turn = side_ == low_x || side_ == high_y ? 1.0 : -1.0;
         const double ring = f.weight * (axisymmetric_ ? 2.0 * std::numbers::pi * x[0] : 1.0);
-        at_[q] = {x, {-turn * tangent[1] * ring, turn * tangent[0] * ring}, f.weight * std::sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1])};
+        at_[q] = {x,
+                  {-turn * tangent[1] * ring, turn * tangent[0] * ring},
+                  f.weight * std::sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1])};
     }
 }
 
@@ -61,25 +64,29 @@ std::array<double, 2> Surface::interpolate(const VectorField& field, std::size_t
     const Facet& f = facets_[q];
     std::array<double, 2> v{};
     for (int a = 0; a < f.functions; ++a)
-        for (int k = 0; k < 2; ++k) v[k] += f.value[a] * field.c[k][f.node[a]];
+        for (int k = 0; k < 2; ++k)
+            v[k] += f.value[a] * field.c[k][f.node[a]];
     return v;
 }
 
 void Surface::add_force(VectorField& field, std::size_t q, const std::array<double, 2>& force) const {
     const Facet& f = facets_[q];
     for (int a = 0; a < f.functions; ++a)
-        for (int k = 0; k < 2; ++k) field.c[k][f.node[a]] += f.value[a] * force[k];
+        for (int k = 0; k < 2; ++k)
+            field.c[k][f.node[a]] += f.value[a] * force[k];
 }
 
 double Surface::mean_radius() const {
     double total = 0.0, length = 0.0;
-    for (const Now& now : at_) total += now.position[0] * now.length, length += now.length;
+    for (const Now& now : at_)
+        total += now.position[0] * now.length, length += now.length;
     return total / length;
 }
 
 double Surface::total_area() const {
     double total = 0.0;
-    for (const Now& now : at_) total += std::sqrt(now.area[0] * now.area[0] + now.area[1] * now.area[1]);
+    for (const Now& now : at_)
+        total += std::sqrt(now.area[0] * now.area[0] + now.area[1] * now.area[1]);
     return total;
 }
 
@@ -93,9 +100,11 @@ double Surface::mean_displacement() const {
     return total / length;
 }
 
-double Surface::enclosed_volume() const { // of the solid of revolution: half the flux of (r, 0) through the surface
+double
+Surface::enclosed_volume() const { // of the solid of revolution: half the flux of (r, 0) through the surface
     double total = 0.0;
-    for (const Now& now : at_) total += 0.5 * now.position[0] * std::abs(now.area[0]);
+    for (const Now& now : at_)
+        total += 0.5 * now.position[0] * std::abs(now.area[0]);
     return total;
 }
 

@@ -14,10 +14,12 @@ class Surface {
     int side() const { return side_; }
     std::size_t size() const { return facets_.size(); } // quadrature points
 
-    void refresh(const Motion& motion); // positions and area vectors now, if anything moved since the last time
+    void
+    refresh(const Motion& motion); // positions and area vectors now, if anything moved since the last time
     const std::vector<std::size_t>& nodes() const { return nodes_; } // indices into a nodal field
 
-    // Of quadrature point q. The area vector points out of the soil, m^2 (whole ring, or 1 m of plane strain).
+    // Of quadrature point q. The area vector points out of the soil, m^2 (whole ring, or 1 m of plane
+    // strain).
     std::array<double, 2> position(std::size_t q) const { return {at_[q].position[0], at_[q].position[1]}; }
     std::array<double, 2> reference(std::size_t q) const { return {reference_[q][0], reference_[q][1]}; }
     std::array<double, 2> area(std::size_t q) const { return {at_[q].area[0], at_[q].area[1]}; }

@@ -6,9 +6,9 @@
 namespace gault::core {
 namespace {
 
-// With constant weights the points' velocities are a nodal field w, v_p = sum N w: Eq. 10 becomes w += a dt, and Eq. 5-6
-// become v = M^-1 C w with the consistent mass C, once a node instead of once a point. Both orders of the stress update
-// (first or last) are then the same sequence.
+// With constant weights the points' velocities are a nodal field w, v_p = sum N w: Eq. 10 becomes w += a dt,
+// and Eq. 5-6 become v = M^-1 C w with the consistent mass C, once a node instead of once a point. Both
+// orders of the stress update (first or last) are then the same sequence.
 class TotalMotion final : public Motion {
   public:
     TotalMotion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads)
@@ -18,7 +18,8 @@ class TotalMotion final : public Motion {
     }
 
     double node_position(int i, int j, int component) const override {
-        return grid_.axis(component).node(component ? j : i) + displacement_.c[component][grid_.layout().index(i, j)];
+        return grid_.axis(component).node(component ? j : i) +
+               displacement_.c[component][grid_.layout().index(i, j)];
     }
     const Column& mass() const override { return mass_; }
 
@@ -30,8 +31,7 @@ class TotalMotion final : public Motion {
 
     void accelerate(const VectorField& a, double dt, VectorField& velocity) override {
         each_node([&](int k, std::size_t n) { flip_.c[k][n] += dt * a.c[k][n]; });
-        consistent_mass(flip_, velocity);
-        each_node([&](int k, std::size_t n) { velocity.c[k][n] *= inverse_mass_[n]; });
+        stencil_rows(flip_, velocity, [&](int k, std::size_t n) { velocity.c[k][n] *= inverse_mass_[n]; });
     }
 
     void deform(const VectorField& velocity, const Moment& moment) override {
@@ -40,16 +40,11 @@ class TotalMotion final : public Motion {
         ++configuration_;
     }
 
-    void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) override;
+    void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli,
+                   VectorField& out) override;
 
     void consistent_mass(const VectorField& w, VectorField& out) override {
-        team_.each(grid_.layout().ny, [&](int j, int) {
-            const std::size_t begin = grid_.layout().row_begin(j);
-            const double* coefficient[25];
-            for (std::size_t c = 0; c < stencil_.size(); ++c) coefficient[c] = stencil_[c].data() + begin;
-            for (int k = 0; k < 2; ++k)
-                kernels_.stencil(coefficient, grid_.layout().row, w.c[k].data() + begin, out.c[k].data() + begin);
-        });
+        stencil_rows(w, out, [](int, std::size_t) {});
     }
 
     double kinetic_energy() override {
@@ -57,18 +52,34 @@ class TotalMotion final : public Motion {
         consistent_mass(flip_, product);
         double energy = 0.0;
         for (int k = 0; k < 2; ++k)
-            for (std::size_t n = 0; n < mass_.size(); ++n) energy += 0.5 * flip_.c[k][n] * product.c[k][n];
+            for (std::size_t n = 0; n < mass_.size(); ++n)
+                energy += 0.5 * flip_.c[k][n] * product.c[k][n];
         return energy;
     }
 
     PointRecord record(int material, std::size_t slot) const override;
 
   private:
-    template <class F> void each_node(F f) { // f(component, node)
-        team_.each(grid_.layout().ny, [&](int j, int) {
-            const std::size_t begin = grid_.layout().row_begin(j), end = begin + static_cast<std::size_t>(grid_.layout().row);
+    template <class F>
+    void each_node(F f) { // f(component, node)
+        each_row([&](int, std::size_t begin, std::size_t end) {
             for (int k = 0; k < 2; ++k)
-                for (std::size_t n = begin; n < end; ++n) f(k, n);
+                for (std::size_t n = begin; n < end; ++n)
+                    f(k, n);
+        });
+    }
+    // out = C w with the consistent mass C, then finish(component, node) of every node.
+    template <class F>
+    void stencil_rows(const VectorField& w, VectorField& out, F finish) {
+        each_row([&](int, std::size_t begin, std::size_t end) {
+            const double* coefficient[25];
+            for (std::size_t c = 0; c < stencil_.size(); ++c)
+                coefficient[c] = stencil_[c].data() + begin;
+            for (int k = 0; k < 2; ++k) {
+                kernels_.stencil(coefficient, grid_.layout().row, w.c[k].data() + begin, out.c[k].data() + begin);
+                for (std::size_t n = begin; n < end; ++n)
+                    finish(k, n);
+            }
         });
     }
     struct Basis2 { // the functions of a point
@@ -99,13 +110,18 @@ TotalMotion::Basis2 TotalMotion::basis(int material, std::size_t slot) const {
     const Points& points = points_[material];
     const std::size_t page = slot / page_slots;
     const auto& batches = points.layout().batches;
-    const auto after = std::upper_bound(batches.begin(), batches.end(), page, [](std::size_t p, const Batch& b) {
-        return p < static_cast<std::size_t>(b.first_page);
-    });
+    const auto after =
+        std::upper_bound(batches.begin(), batches.end(), page, [](std::size_t p, const Batch& b) {
+            return p < static_cast<std::size_t>(b.first_page);
+        });
     const int i = points.layout().page_column[page], j = std::prev(after)->cell_row;
     const double xi = points.columns().place[0][slot], eta = points.columns().place[1][slot];
     const Axis &x = grid_.axis(0), &y = grid_.axis(1);
-    return {i, j, x.weights(i, xi), y.weights(j, eta), {x.origin()[i] + xi * x.length()[i], y.origin()[j] + eta * y.length()[j]}};
+    return {i,
+            j,
+            x.weights(i, xi),
+            y.weights(j, eta),
+            {x.origin()[i] + xi * x.length()[i], y.origin()[j] + eta * y.length()[j]}};
 }
 
 void TotalMotion::assemble_mass() {
@@ -119,7 +135,8 @@ void TotalMotion::assemble_mass() {
             const double point_mass = materials_[m].density() * points_[m].columns().measure[slot] * r;
             double value[9];
             for (int b = 0; b <= degree; ++b)
-                for (int a = 0; a <= degree; ++a) value[b * 3 + a] = at.x.value[a] * at.y.value[b];
+                for (int a = 0; a <= degree; ++a)
+                    value[b * 3 + a] = at.x.value[a] * at.y.value[b];
             for (int b = 0; b <= degree; ++b)
                 for (int a = 0; a <= degree; ++a) {
                     const std::size_t n = layout.index(at.i + a, at.j + b);
@@ -127,12 +144,13 @@ void TotalMotion::assemble_mass() {
                     mass_[n] += share;
                     for (int d = 0; d <= degree; ++d)
                         for (int c = 0; c <= degree; ++c)
-                            stencil_[static_cast<std::size_t>((d - b + degree) * reach + c - a + degree)][n] +=
-                                share * value[d * 3 + c];
+                            stencil_[static_cast<std::size_t>((d - b + degree) * reach + c - a + degree)]
+                                    [n] += share * value[d * 3 + c];
                 }
         });
     inverse_mass_.resize(mass_.size());
-    for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0.0 ? 1.0 / mass_[n] : 0.0;
+    for (std::size_t n = 0; n < mass_.size(); ++n)
+        inverse_mass_[n] = mass_[n] > 0.0 ? 1.0 / mass_[n] : 0.0;
 }
 
 void TotalMotion::sweep(const VectorField& velocity, const Moment& moment, bool update) {
@@ -144,9 +162,11 @@ void TotalMotion::sweep(const VectorField& velocity, const Moment& moment, bool 
         attach_workspace(material, workspaces_[thread], v);
         Stopwatch watch(clock_.on && thread == 0);
         Outcome& outcome = outcomes_[t];
-        outcome.strain = kernels_.total_strain(grid, v, strain_input(velocity, moment.dt, !material.finite_strain()));
+        outcome.strain =
+            kernels_.total_strain(grid, v, strain_input(velocity, moment.dt, !material.finite_strain()));
         watch.lap(clock_.strain);
-        if (update && outcome.strain.bad < 0) outcome.failure = update_stress(task, v, workspaces_[thread], moment);
+        if (update && outcome.strain.bad < 0)
+            outcome.failure = update_stress(task, v, workspaces_[thread], moment);
         watch.lap(clock_.material);
         clear_patch(task, 2);
         kernels_.total_force(grid, v);
@@ -155,7 +175,8 @@ void TotalMotion::sweep(const VectorField& velocity, const Moment& moment, bool 
     if (update) settle(outcomes_);
 }
 
-void TotalMotion::stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) {
+void TotalMotion::stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli,
+                            VectorField& out) {
     const GridView grid = grid_view();
     const double dt = probe_step(v);
     for (const Task& task : tasks_) {
@@ -193,7 +214,8 @@ PointRecord TotalMotion::record(int material, std::size_t slot) const {
 
 } // namespace
 
-std::unique_ptr<Motion> make_total_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads) {
+std::unique_ptr<Motion> make_total_motion(Grid& grid, std::vector<Material>& materials,
+                                          std::vector<Points>& points, int threads) {
     return std::make_unique<TotalMotion>(grid, materials, points, threads);
 }
 

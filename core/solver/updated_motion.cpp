@@ -8,24 +8,33 @@
 namespace gault::core {
 namespace {
 
-// The paper's algorithm: points carry position, volume and velocity, and cross cells. After every step the knots of each
-// axis are stretched linearly so that the ends of the axis follow the walls: there are no cut cells.
+// The paper's algorithm: points carry position, volume and velocity, and cross cells. After every step the
+// knots of each axis are stretched linearly so that the ends of the axis follow the walls: there are no cut
+// cells.
 class UpdatedMotion final : public Motion {
   public:
-    UpdatedMotion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads, bool stress_first)
-        : Motion(grid, materials, points, threads), stress_first_(stress_first), mass_(grid.layout().size) {
-        for (int side = 0; side < 4; ++side) bend_[side].assign(grid.side_nodes(side), 0.0);
-        for (int k = 0; k < 2; ++k) ends_[k] = {grid.axis(k).lower(), grid.axis(k).upper()};
+    UpdatedMotion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads,
+                  bool stress_first)
+        : Motion(grid, materials, points, threads), stress_first_(stress_first), mass_(grid.layout().size),
+          mapped_mass_(mass_) {
+        for (int side = 0; side < 4; ++side)
+            bend_[side].assign(grid.side_nodes(side), 0.0);
+        for (int k = 0; k < 2; ++k)
+            ends_[k] = {grid.axis(k).lower(), grid.axis(k).upper()};
         VectorField ignored(grid.layout());
         forces(ignored); // and the nodal masses
     }
 
-    double node_position(int i, int j, int component) const override { return grid_.axis(component).node(component ? j : i); }
+    double node_position(int i, int j, int component) const override {
+        return grid_.axis(component).node(component ? j : i);
+    }
     const Column& mass() const override { return mass_; }
     bool stress_first() const override { return stress_first_; }
 
     void forces(VectorField& internal) override {
-        each_batch(3, clock_.force, [this](const GridView& grid, BatchView& v, const Task&) { kernels_.updated_force(grid, v); });
+        each_batch(3, clock_.force, [this](const GridView& grid, BatchView& v, const Task&) {
+            kernels_.updated_force(grid, v);
+        });
         reduce({&internal.c[0], &internal.c[1], &mass_});
     }
 
@@ -45,7 +54,8 @@ class UpdatedMotion final : public Motion {
     }
 
     void deform(const VectorField& velocity, const Moment& moment) override;
-    void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) override;
+    void stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli,
+                   VectorField& out) override;
     void consistent_mass(const VectorField& w, VectorField& out) override;
 
     double kinetic_energy() override {
@@ -53,7 +63,8 @@ class UpdatedMotion final : public Motion {
         for (const Points& points : points_) {
             const PointColumns& c = points.columns();
             points.each_point([&](std::size_t s) {
-                energy += 0.5 * c.mass[s] * (c.velocity[0][s] * c.velocity[0][s] + c.velocity[1][s] * c.velocity[1][s]);
+                energy += 0.5 * c.mass[s] *
+                          (c.velocity[0][s] * c.velocity[0][s] + c.velocity[1][s] * c.velocity[1][s]);
             });
         }
         return energy;
@@ -68,7 +79,8 @@ class UpdatedMotion final : public Motion {
     }
 
   private:
-    template <class F> void each_batch(int components, double& phase, F f) {
+    template <class F>
+    void each_batch(int components, double& phase, F f) {
         const GridView grid = grid_view();
         team_.each(static_cast<int>(tasks_.size()), [&](int t, int thread) {
             Stopwatch watch(clock_.on && thread == 0);
@@ -79,30 +91,36 @@ class UpdatedMotion final : public Motion {
         });
     }
 
-    void map(const double* const* acceleration, const double* const* moving, double dt, VectorField& velocity);
-    void follow(const VectorField& velocity, double dt); // moves the grid with its walls, then points to their new cells
+    void map(const double* const* acceleration, const double* const* moving, double dt,
+             VectorField& velocity);
+    void follow(const VectorField& velocity,
+                double dt); // moves the grid with its walls, then points to their new cells
     void move_walls(const VectorField& velocity, double dt);
     void resettle();
 
     bool stress_first_;
-    Column mass_;
-    std::array<std::array<double, 2>, 2> ends_;    // of the axes, m
-    std::array<std::vector<double>, 4> bend_;      // how far each wall node has left the straight wall, m
+    Column mass_, mapped_mass_; // of the nodes at the last forces, and at the last mapping
+    std::array<std::array<double, 2>, 2> ends_; // of the axes, m
+    std::array<std::vector<double>, 4> bend_;   // how far each wall node has left the straight wall, m
 };
 
-void UpdatedMotion::map(const double* const* acceleration, const double* const* moving, double dt, VectorField& velocity) {
+void UpdatedMotion::map(const double* const* acceleration, const double* const* moving, double dt,
+                        VectorField& velocity) {
     each_batch(3, clock_.velocity, [&](const GridView& grid, BatchView& v, const Task&) {
         kernels_.updated_velocity(grid, v, dt, acceleration, moving, true);
     });
-    Column mass(mass_.size());
-    reduce({&velocity.c[0], &velocity.c[1], &mass});
-    for (int k = 0; k < 2; ++k)
-        for (std::size_t n = 0; n < mass.size(); ++n) velocity.c[k][n] = mass[n] > 0.0 ? velocity.c[k][n] / mass[n] : 0.0;
+    reduce({&velocity.c[0], &velocity.c[1], &mapped_mass_});
+    each_row([&](int, std::size_t begin, std::size_t end) {
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = begin; n < end; ++n)
+                velocity.c[k][n] = mapped_mass_[n] > 0.0 ? velocity.c[k][n] / mapped_mass_[n] : 0.0;
+    });
 }
 
 void UpdatedMotion::deform(const VectorField& velocity, const Moment& moment) {
     const bool move = !stress_first_;
-    const StrainInput base{{velocity.c[0].data(), velocity.c[1].data()}, {nullptr, nullptr}, moment.dt, strain_limit, true};
+    const StrainInput base{
+        {velocity.c[0].data(), velocity.c[1].data()}, {nullptr, nullptr}, moment.dt, strain_limit, true};
     const GridView grid = grid_view();
     team_.each(static_cast<int>(tasks_.size()), [&](int t, int thread) {
         const Task& task = tasks_[t];
@@ -151,12 +169,14 @@ void UpdatedMotion::move_walls(const VectorField& velocity, double dt) {
             const auto [i, j] = grid_.side_node(side, k);
             bend_[side][k] += dt * (velocity.c[axis][grid_.layout().index(i, j)] - mean);
             if (std::abs(bend_[side][k]) > allowed)
-                throw RunError(fmt::format("the wall near ({:.6g}, {:.6g}) m has left its straight line by more than a tenth of "
-                                           "a cell; the updated frame keeps walls straight: use `frame: total`",
-                                           node_position(i, j, 0), node_position(i, j, 1)));
+                throw RunError(fmt::format(
+                    "the wall near ({:.6g}, {:.6g}) m has left its straight line by more than a tenth of "
+                    "a cell; the updated frame keeps walls straight: use `frame: total`",
+                    node_position(i, j, 0), node_position(i, j, 1)));
         }
     }
-    for (int k = 0; k < 2; ++k) grid_.axis(k).move(ends_[k][0], ends_[k][1]);
+    for (int k = 0; k < 2; ++k)
+        grid_.axis(k).move(ends_[k][0], ends_[k][1]);
     ++configuration_;
 }
 
@@ -179,7 +199,8 @@ void UpdatedMotion::resettle() {
     for (int t = 0; t < n; ++t) {
         const Task& task = tasks_[t];
         const Points& points = points_[task.material];
-        const std::size_t first = static_cast<std::size_t>(points.layout().batches[task.batch].first_page) * page_slots;
+        const std::size_t first =
+            static_cast<std::size_t>(points.layout().batches[task.batch].first_page) * page_slots;
         for (const int64_t local : left[t]) {
             const std::size_t slot = first + static_cast<std::size_t>(local);
             const double x = points.columns().place[0][slot], y = points.columns().place[1][slot];
@@ -188,7 +209,8 @@ void UpdatedMotion::resettle() {
             const int now = points.layout().batches[task.batch].cell_row * grid_.axis(0).cells() +
                             points.layout().page_column[slot / page_slots];
             for (int k = 0; k < 2; ++k) {
-                const double outside = std::max(grid_.axis(k).lower() - (k ? y : x), (k ? y : x) - grid_.axis(k).upper());
+                const double outside =
+                    std::max(grid_.axis(k).lower() - (k ? y : x), (k ? y : x) - grid_.axis(k).upper());
                 if (outside > 0.5 * grid_.axis(k).length()[k ? row : column])
                     throw RunError(fmt::format("{} left the grid", where(task.material, slot)));
             }
@@ -200,21 +222,22 @@ void UpdatedMotion::resettle() {
     if (plan_is_stale()) plan();
 }
 
-void UpdatedMotion::stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli, VectorField& out) {
+void UpdatedMotion::stiffness(const VectorField& v, const std::vector<std::array<Column, 2>>& moduli,
+                              VectorField& out) {
     const GridView grid = grid_view();
     const double dt = probe_step(v);
     const StrainInput in{{v.c[0].data(), v.c[1].data()}, {nullptr, nullptr}, dt, strain_limit, true};
     for (const Task& task : tasks_) {
         BatchView probe = view(task);
-        for (double*& strain : probe.strain) strain = nullptr; // the points' own stays
+        for (double*& strain : probe.strain)
+            strain = nullptr; // the points' own stays
         attach_workspace(materials_[task.material], workspaces_[0], probe);
         kernels_.updated_strain(grid, probe, in, false, false);
         elastic_stress(moduli[task.material], task, dt, probe, workspaces_[0]);
         clear_patch(task, 3);
         kernels_.updated_force(grid, probe);
     }
-    Column mass(mass_.size());
-    reduce({&out.c[0], &out.c[1], &mass});
+    reduce({&out.c[0], &out.c[1], &mapped_mass_});
 }
 
 void UpdatedMotion::consistent_mass(const VectorField& w, VectorField& out) {
@@ -229,14 +252,13 @@ void UpdatedMotion::consistent_mass(const VectorField& w, VectorField& out) {
         clear_patch(task, 3);
         kernels_.updated_velocity(grid, probe, 1.0, gathered, nullptr, true);
     }
-    Column mass(mass_.size());
-    reduce({&out.c[0], &out.c[1], &mass});
+    reduce({&out.c[0], &out.c[1], &mapped_mass_});
 }
 
 } // namespace
 
-std::unique_ptr<Motion> make_updated_motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads,
-                                            bool stress_first) {
+std::unique_ptr<Motion> make_updated_motion(Grid& grid, std::vector<Material>& materials,
+                                            std::vector<Points>& points, int threads, bool stress_first) {
     return std::make_unique<UpdatedMotion>(grid, materials, points, threads, stress_first);
 }
 

@@ -1,113 +1,19 @@
-// See kernels.hpp. Compiled once per instruction set; only headers whose code stays in that set's namespace may be used.
-#include "core/transfer/kernels.hpp"
-#include <gault/pack.hpp>
-
-#define GAULT_INLINE_LAMBDA __attribute__((always_inline))
+// See kernels.hpp. Compiled once per instruction set; only headers whose code stays in that set's namespace
+// may be used.
+#include "core/transfer/interpolation.hpp"
 
 namespace gault::core::GAULT_ISA {
 namespace {
-
-using gault::Pack;
-static_assert(page_slots % pack_lanes == 0);
-
-template <int Degree>
-struct Weights { // along one axis, for a pack of points in one cell
-    Pack value[Degree + 1], slope[Degree + 1];
-};
-
-template <int Degree>
-GAULT_INLINE Weights<Degree> weights(const AxisView& axis, int cell, Pack xi) {
-    const Pack a = Pack(1.0) - xi, per_length = axis.inverse_length[cell];
-    Weights<Degree> w;
-    if constexpr (Degree == 1) {
-        w.value[0] = a;
-        w.value[1] = xi;
-        w.slope[0] = -per_length;
-        w.slope[1] = per_length;
-    } else {
-        const Pack la = a * axis.left[cell], rx = xi * axis.right[cell], twice = per_length + per_length;
-        w.value[0] = la * a;
-        w.value[2] = rx * xi;
-        w.value[1] = Pack(1.0) - w.value[0] - w.value[2];
-        w.slope[0] = -(la * twice);
-        w.slope[2] = rx * twice;
-        w.slope[1] = -(w.slope[0] + w.slope[2]);
-    }
-    return w;
-}
-
-struct Gathered {
-    Pack value, dx, dy;
-};
-
-// sum_ab N_a(x) N_b(y) f_ab and its gradient, one axis after the other.
-template <int Degree>
-GAULT_INLINE Gathered gather(const double* f, std::ptrdiff_t row, const Weights<Degree>& x, const Weights<Degree>& y) {
-    Gathered g{0.0, 0.0, 0.0};
-    for (int b = 0; b <= Degree; ++b, f += row) {
-        Pack s = x.value[0] * Pack(f[0]), d = x.slope[0] * Pack(f[0]);
-        for (int a = 1; a <= Degree; ++a) {
-            s += x.value[a] * Pack(f[a]);
-            d += x.slope[a] * Pack(f[a]);
-        }
-        g.value += y.value[b] * s;
-        g.dx += y.value[b] * d;
-        g.dy += y.slope[b] * s;
-    }
-    return g;
-}
-
-template <int Degree>
-GAULT_INLINE Pack gather_value(const double* f, std::ptrdiff_t row, const Weights<Degree>& x, const Weights<Degree>& y) {
-    Pack g = 0.0;
-    for (int b = 0; b <= Degree; ++b, f += row) {
-        Pack s = x.value[0] * Pack(f[0]);
-        for (int a = 1; a <= Degree; ++a) s += x.value[a] * Pack(f[a]);
-        g += y.value[b] * s;
-    }
-    return g;
-}
-
-// Sums of a cell's nodes over the points of the pages that follow one another in that cell.
-template <int Degree, int Components>
-struct Accumulator {
-    static constexpr int n = Degree + 1;
-    Pack sums[Components][n][n];
-
-    GAULT_INLINE void clear() {
-        for (auto& component : sums)
-            for (auto& row : component)
-                for (Pack& p : row) p = 0.0;
-    }
-    GAULT_INLINE void flush(const BatchView& batch, int column) {
-        double* at = batch.patch + (column - batch.first_column);
-        for (auto& component : sums)
-            for (auto& row : component) {
-                for (int a = 0; a < n; ++a) at[a] += sum(row[a]);
-                at += batch.patch_row;
-            }
-        clear();
-    }
-};
-
-template <int Degree, int Components, class Page>
-GAULT_INLINE void scatter_pages(const BatchView& batch, Page page) {
-    Accumulator<Degree, Components> nodes;
-    nodes.clear();
-    for (int p = 0; p < batch.pages; ++p) {
-        for (int slot = p * page_slots; slot < (p + 1) * page_slots; slot += pack_lanes) page(nodes, slot, batch.column[p]);
-        if (p + 1 == batch.pages || batch.column[p + 1] != batch.column[p]) nodes.flush(batch, batch.column[p]);
-    }
-}
 
 struct Increment { // of one step: strain and rotation
     Pack xx, yy, zz, xy, cosine, sine;
 };
 
-// From H = d(dt v)/dX, the mid-step F, and the hoop strain: l = H F_mid^-1, rotation by Hughes & Winget (1980), strain = sym l
-// turned from the middle of the step to its end, by half the rotation: without that, the stress of a body that stretches
-// while it turns is accurate to first order only.
-GAULT_INLINE Increment increment(Pack hxx, Pack hxy, Pack hyx, Pack hyy, Pack fxx, Pack fxy, Pack fyx, Pack fyy, Pack hoop) {
+// From H = d(dt v)/dX, the mid-step F, and the hoop strain: l = H F_mid^-1, rotation by Hughes & Winget
+// (1980), strain = sym l turned from the middle of the step to its end, by half the rotation: without that,
+// the stress of a body that stretches while it turns is accurate to first order only.
+GAULT_INLINE Increment increment(Pack hxx, Pack hxy, Pack hyx, Pack hyy, Pack fxx, Pack fxy, Pack fyx,
+                                 Pack fyy, Pack hoop) {
     const Pack inverse = Pack(1.0) / (fxx * fyy - fxy * fyx);
     const Pack lxx = (hxx * fyy - hxy * fyx) * inverse, lxy = (hxy * fxx - hxx * fxy) * inverse;
     const Pack lyx = (hyx * fyy - hyy * fyx) * inverse, lyy = (hyy * fxx - hyx * fxy) * inverse;
@@ -158,7 +64,8 @@ struct Watch { // over a batch
     }
     StrainReport report() const {
         double most = 0.0;
-        for (int i = 0; i < pack_lanes; ++i) most = largest[i] > most ? largest[i] : most;
+        for (int i = 0; i < pack_lanes; ++i)
+            most = largest[i] > most ? largest[i] : most;
         return {most, bad};
     }
 };
@@ -187,7 +94,8 @@ StrainReport total_strain(const GridView& grid, const BatchView& batch, const St
             const Gathered ux = gather<Degree>(in.displacement_old[0] + node, grid.row, wx, wy);
             const Gathered uy = gather<Degree>(in.displacement_old[1] + node, grid.row, wx, wy);
             const Pack hxx = dt * vx.dx, hxy = dt * vx.dy, hyx = dt * vy.dx, hyy = dt * vy.dy;
-            const Pack fxx = one + ux.dx, fxy = ux.dy, fyx = uy.dx, fyy = one + uy.dy; // at the start of the step
+            const Pack fxx = one + ux.dx, fxy = ux.dy, fyx = uy.dx,
+                       fyy = one + uy.dy; // at the start of the step
             const Pack gxx = fxx + hxx, gxy = fxy + hxy, gyx = fyx + hyx, gyy = fyy + hyy; // at its end
             const Pack det = gxx * gyy - gxy * gyx;
             const Pack measure = Pack::load(batch.measure + slot);
@@ -204,8 +112,8 @@ StrainReport total_strain(const GridView& grid, const BatchView& batch, const St
                     stretch_new = (r + dr) / reference;
                 }
             }
-            const Increment e = increment(hxx, hxy, hyx, hyy, 0.5 * (fxx + gxx), 0.5 * (fxy + gxy), 0.5 * (fyx + gyx),
-                                          0.5 * (fyy + gyy), hoop);
+            const Increment e = increment(hxx, hxy, hyx, hyy, 0.5 * (fxx + gxx), 0.5 * (fxy + gxy),
+                                          0.5 * (fyx + gyx), 0.5 * (fyy + gyy), hoop);
             watch.look(e, det, live, limit, slot);
             store_increment(batch, slot, e, live);
             rotate_stress(batch, slot, e, in.rotate);
@@ -226,8 +134,8 @@ struct PlaneStress {
 
 // The stress that acts in forces: the soil's, and the viscous one of the step's strain.
 GAULT_INLINE PlaneStress acting_stress(const BatchView& batch, int slot) {
-    PlaneStress s{Pack::load(batch.stress[0] + slot), Pack::load(batch.stress[1] + slot), Pack::load(batch.stress[2] + slot),
-                  Pack::load(batch.stress[3] + slot)};
+    PlaneStress s{Pack::load(batch.stress[0] + slot), Pack::load(batch.stress[1] + slot),
+                  Pack::load(batch.stress[2] + slot), Pack::load(batch.stress[3] + slot)};
     if (batch.viscous_shear == 0.0) return s;
     const Pack xx = Pack::load(batch.strain[0] + slot), yy = Pack::load(batch.strain[1] + slot);
     const Pack zz = Pack::load(batch.strain[2] + slot), xy = Pack::load(batch.strain[3] + slot);
@@ -275,7 +183,8 @@ GAULT_INLINE Place place(const GridView& grid, const BatchView& batch, int slot,
 }
 
 template <int Degree, bool Axisymmetric>
-StrainReport updated_strain(const GridView& grid, const BatchView& batch, const StrainInput& in, bool commit, bool move) {
+StrainReport updated_strain(const GridView& grid, const BatchView& batch, const StrainInput& in, bool commit,
+                            bool move) {
     Watch watch;
     const Pack dt = in.dt, limit = in.limit, one = 1.0;
     for (int p = 0; p < batch.pages; ++p) {
@@ -288,7 +197,8 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
             const Gathered vx = gather<Degree>(in.velocity[0] + node, grid.row, wx, wy);
             const Gathered vy = gather<Degree>(in.velocity[1] + node, grid.row, wx, wy);
             const Pack volume = Pack::load(batch.measure + slot);
-            const Pack live = select(volume > Pack(0.0), one, 0.0), step = dt * live; // an empty slot keeps what it has
+            const Pack live = select(volume > Pack(0.0), one, 0.0),
+                       step = dt * live; // an empty slot keeps what it has
             const Pack hxx = step * vx.dx, hxy = step * vx.dy, hyx = step * vy.dx, hyy = step * vy.dy;
             const Pack dx = step * vx.value, dy = step * vy.value;
             Pack ratio = (one + hxx) * (one + hyy) - hxy * hyx, hoop = 0.0, stretch = 1.0;
@@ -305,13 +215,16 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
             if (!commit) continue;
             (volume * ratio).store(batch.measure + slot); // Eq. 13
             if (batch.deformation[0]) {
-                const Pack fxx = Pack::load(batch.deformation[0] + slot), fxy = Pack::load(batch.deformation[1] + slot);
-                const Pack fyx = Pack::load(batch.deformation[2] + slot), fyy = Pack::load(batch.deformation[3] + slot);
+                const Pack fxx = Pack::load(batch.deformation[0] + slot),
+                           fxy = Pack::load(batch.deformation[1] + slot);
+                const Pack fyx = Pack::load(batch.deformation[2] + slot),
+                           fyy = Pack::load(batch.deformation[3] + slot);
                 const Pack fzz = Pack::load(batch.deformation[4] + slot);
                 store5(batch.gradient_old, slot, fxx, fxy, fyx, fyy, fzz);
                 store5(batch.gradient_new, slot, fxx + hxx * fxx + hxy * fyx, fxy + hxx * fxy + hxy * fyy,
                        fyx + hyx * fxx + hyy * fyx, fyy + hyx * fxy + hyy * fyy, fzz * stretch);
-                for (int k = 0; k < 5; ++k) Pack::load(batch.gradient_new[k] + slot).store(batch.deformation[k] + slot);
+                for (int k = 0; k < 5; ++k)
+                    Pack::load(batch.gradient_new[k] + slot).store(batch.deformation[k] + slot);
             }
             if (move) { // Eq. 16
                 (at.x + dx).store(batch.place[0] + slot);
@@ -336,7 +249,8 @@ void updated_force(const GridView& grid, const BatchView& batch) {
         if constexpr (Axisymmetric) hoop = volume * s.zz / at.x;
         for (int a = 0; a <= Degree; ++a) {
             Pack xs = sxx * wx.slope[a];
-            const Pack xv = sxy * wx.value[a], ys = sxy * wx.slope[a], yv = syy * wx.value[a], m = mass * wx.value[a];
+            const Pack xv = sxy * wx.value[a], ys = sxy * wx.slope[a], yv = syy * wx.value[a],
+                       m = mass * wx.value[a];
             if constexpr (Axisymmetric) xs += hoop * wx.value[a];
             for (int b = 0; b <= Degree; ++b) {
                 nodes.sums[0][b][a] -= wy.value[b] * xs + wy.slope[b] * xv;
@@ -349,8 +263,8 @@ void updated_force(const GridView& grid, const BatchView& batch) {
 
 // Eq. 10, then Eq. 5 and 6 with the updated point velocities (the MUSL re-mapping).
 template <int Degree>
-void updated_velocity(const GridView& grid, const BatchView& batch, double step, const double* const acceleration[2],
-                      const double* const velocity[2], bool scatter) {
+void updated_velocity(const GridView& grid, const BatchView& batch, double step,
+                      const double* const acceleration[2], const double* const velocity[2], bool scatter) {
     const Pack dt = step;
     for (int p = 0; p < batch.pages; ++p) {
         const int column = batch.column[p];
@@ -377,7 +291,8 @@ void updated_velocity(const GridView& grid, const BatchView& batch, double step,
         const auto wx = weights<Degree>(grid.x, column, at.xi);
         const auto wy = weights<Degree>(grid.y, batch.cell_row, at.eta);
         const Pack mass = Pack::load(batch.mass + slot);
-        const Pack mx = mass * Pack::load(batch.velocity[0] + slot), my = mass * Pack::load(batch.velocity[1] + slot);
+        const Pack mx = mass * Pack::load(batch.velocity[0] + slot),
+                   my = mass * Pack::load(batch.velocity[1] + slot);
         for (int a = 0; a <= Degree; ++a)
             for (int b = 0; b <= Degree; ++b) {
                 const Pack n = wx.value[a] * wy.value[b];

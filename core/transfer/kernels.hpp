@@ -1,9 +1,10 @@
-// The loops over material points: from the grid to strains, from stresses to grid forces. Plain data in and out, because
-// kernels.cpp is compiled once for every instruction set and the best one is chosen when the program starts.
+// The loops over material points: from the grid to strains, from stresses to grid forces. Plain data in and
+// out, because kernels.cpp is compiled once for every instruction set and the best one is chosen when the
+// program starts.
 //
-// A batch is a run of pages of eight slots; the points of a page share one grid cell, and the cells of a batch lie in one
-// row of cells. Every kernel adds into the batch's own patch of nodes, (columns + degree) x (degree + 1) of them, which the
-// caller sums in a fixed order: the same bits for every number of threads.
+// A batch is a run of pages of eight slots; the points of a page share one grid cell, and the cells of a
+// batch lie in one row of cells. Every kernel adds into the batch's own patch of nodes, (columns + degree) x
+// (degree + 1) of them, which the caller sums in a fixed order: the same bits for every number of threads.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -23,31 +24,32 @@ struct GridView {
 
 struct BatchView {
     int pages;
-    const int32_t* column;  // cell column of each page
-    int cell_row;           // cell row of the batch
-    int first_column;       // of the patch
-    std::ptrdiff_t node;    // index of the node (0, cell_row) in a nodal field
-    int patch_row;          // nodes in a patch row
-    double* patch;          // component by component, row by row
+    const int32_t* column; // cell column of each page
+    int cell_row;          // cell row of the batch
+    int first_column;      // of the patch
+    std::ptrdiff_t node;   // index of the node (0, cell_row) in a nodal field
+    int patch_row;         // nodes in a patch row
+    double* patch;         // component by component, row by row
 
     // Columns of the points, from the batch's first slot.
-    double *place[2];    // total frame: cell coordinates in [0, 1]; updated frame: position, m
-    double *measure;     // total frame: initial volume / r (axisymmetric), or initial volume; updated frame: volume, m^3.
-                         // Zero marks an empty slot.
-    double *mass;        // updated frame, kg
-    double *velocity[2]; // updated frame, m/s
-    const double *stress[6];
-    double *deformation[5]; // updated frame: F_xx F_xy F_yx F_yy F_zz where a material wants it, else null
+    double* place[2];    // total frame: cell coordinates in [0, 1]; updated frame: position, m
+    double* measure;     // total frame: initial volume / r (axisymmetric), or initial volume; updated frame:
+                         // volume, m^3. Zero marks an empty slot.
+    double* mass;        // updated frame, kg
+    double* velocity[2]; // updated frame, m/s
+    const double* stress[6];
+    double* deformation[5]; // updated frame: F_xx F_xy F_yx F_yy F_zz where a material wants it, else null
 
     // Workspace of the batch, one value a slot.
-    double *strain[4];     // out: xx yy zz xy (updated frame with viscosity: a column of the points)
-    double *stress_old[6]; // out: rotated
-    double *rotation[2];   // out: cosine and sine of the step's rotation, or null
-    double *flux[5];       // total frame: area vectors of the deformed point, xx xy yx yy and hoop
+    double* strain[4];     // out: xx yy zz xy (updated frame with viscosity: a column of the points)
+    double* stress_old[6]; // out: rotated
+    double* rotation[2];   // out: cosine and sine of the step's rotation, or null
+    double* flux[5];       // total frame: area vectors of the deformed point, xx xy yx yy and hoop
     double *gradient_old[5], *gradient_new[5]; // out: xx xy yx yy zz of F, or null
-    double *volume_ratio;                      // out, total frame: J, or null
+    double* volume_ratio;                      // out, total frame: J, or null
 
-    double viscous_lame, viscous_shear; // Pa: added to the stress in forces, lame tr(strain) 1 + 2 shear strain
+    double viscous_lame,
+        viscous_shear; // Pa: added to the stress in forces, lame tr(strain) 1 + 2 shear strain
 };
 
 struct StrainReport {
@@ -56,11 +58,11 @@ struct StrainReport {
 };
 
 struct StrainInput {
-    const double *velocity[2];         // nodal, m/s
-    const double *displacement_old[2]; // nodal, total frame, m
+    const double* velocity[2];         // nodal, m/s
+    const double* displacement_old[2]; // nodal, total frame, m
     double dt;
-    double limit;                      // on strain components of one step
-    bool rotate;                       // stress_old (false: material wants F and rotates nothing)
+    double limit; // on strain components of one step
+    bool rotate;  // stress_old (false: material wants F and rotates nothing)
 };
 
 struct Kernels {
@@ -69,16 +71,21 @@ struct Kernels {
     StrainReport (*total_strain)(const GridView&, const BatchView&, const StrainInput&);
     // Total frame: internal forces (2 components) into the patch, from stress and flux.
     void (*total_force)(const GridView&, const BatchView&);
-    // Updated frame: strain of the step and rotated old stress; with `commit`, the volume; with `move`, the positions.
-    StrainReport (*updated_strain)(const GridView&, const BatchView&, const StrainInput&, bool commit, bool move);
+    // Updated frame: strain of the step and rotated old stress; with `commit`, the volume; with `move`, the
+    // positions.
+    StrainReport (*updated_strain)(const GridView&, const BatchView&, const StrainInput&, bool commit,
+                                   bool move);
     // Updated frame: internal forces and mass (3 components).
     void (*updated_force)(const GridView&, const BatchView&);
-    // Updated frame: v_p += dt N a; with `velocity`, x_p += dt N v; with `scatter`, mass and momentum (3 components).
-    void (*updated_velocity)(const GridView&, const BatchView&, double dt, const double* const acceleration[2],
-                             const double* const velocity[2], bool scatter);
+    // Updated frame: v_p += dt N a; with `velocity`, x_p += dt N v; with `scatter`, mass and momentum (3
+    // components).
+    void (*updated_velocity)(const GridView&, const BatchView&, double dt,
+                             const double* const acceleration[2], const double* const velocity[2],
+                             bool scatter);
     // Slots that left their cell: writes at most `capacity` indices, returns how many there are.
     int64_t (*leavers)(const GridView&, const BatchView&, int64_t* slots, int64_t capacity);
-    // One row of a field, margin included: out[n] = sum over the (2 degree + 1)^2 neighbours of coefficient * in.
+    // One row of a field, margin included: out[n] = sum over the (2 degree + 1)^2 neighbours of coefficient *
+    // in.
     void (*stencil)(const double* const* coefficient, std::ptrdiff_t row, const double* in, double* out);
 };
 

@@ -104,7 +104,7 @@ TEST_P(BreathingRing, IsStableBelowTheLimitAndKeepsItsEnergy) {
 TEST_P(BreathingRing, StopsWithAnExplanationBeyondTheLimit) {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("gault-hard-" + std::to_string(getpid()));
-    const Scene scene = scene_of("hard/breathing", with(), [](Scene& s) { s.solver.time_step_factor = 1.1; });
+    const Scene scene = scene_of("hard/breathing", with({{"solver.time_step_factor", "1.1"}}));
     RunOptions options;
     options.folder = folder;
     options.quiet = true;

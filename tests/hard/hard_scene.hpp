@@ -18,11 +18,8 @@ inline const Registry& registry() {
 }
 
 // `file` relative to configs/, without its ending.
-inline Scene scene_of(const std::string& file, const std::vector<Override>& overrides,
-                      const std::function<void(Scene&)>& change = {}) {
-    Scene scene = read_scene(GAULT_SOURCE_DIR "/configs/" + file + ".yaml", overrides, registry());
-    if (change) change(scene);
-    return scene;
+inline Scene scene_of(const std::string& file, const std::vector<Override>& overrides) {
+    return read_scene(GAULT_SOURCE_DIR "/configs/" + file + ".yaml", overrides, registry());
 }
 
 struct HardScene {
@@ -32,9 +29,8 @@ struct HardScene {
     Program program;
     std::vector<std::vector<double>> rows; // time, then the records
 
-    explicit HardScene(const std::string& file, const std::vector<Override>& overrides = {},
-                       const std::function<void(Scene&)>& change = {})
-        : scene(scene_of(file, overrides, change)), model(build_model(scene)), solver(scene, model, 1),
+    explicit HardScene(const std::string& file, const std::vector<Override>& overrides = {})
+        : scene(scene_of(file, overrides)), model(build_model(scene)), solver(scene, model, 1),
           program(scene, solver) {}
 
     // Steps end at events; `after` is called at the end of each.

@@ -1,3 +1,4 @@
+/* clang-format off */
 /* gault.h - the whole binary contract between the Gault host and a plugin.
  *
  * C11 / C++17. Nothing here allocates, throws, or owns C++ types. C++ authors include <gault/material.hpp>,

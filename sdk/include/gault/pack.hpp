@@ -1,3 +1,4 @@
+// clang-format off
 // A pack of doubles as wide as the instruction set the file is compiled for (2, 4 or 8), on the compilers'
 // vector extension (gcc, clang). Arithmetic is lane by lane and, with -ffp-contract=off, the same to the bit whatever
 // the width. Everything is forced inline and lives in a namespace of its instruction set, so that objects compiled for
