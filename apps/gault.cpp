@@ -85,12 +85,16 @@ int dispatch(int count, char** words) {
     app.set_version_flag("--version", std::string("gault ") + GAULT_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
-    app.footer("Examples:\n"
-               "  gault run configs/paper/fahey.yaml -o out/fahey\n"
-               "  gault check configs/paper/fahey.yaml\n"
-               "  gault describe mohr_coulomb\n"
-               "`gault COMMAND --help` lists the options of a command.\n\n"
-               "Exit status: 0 done, 2 wrong scene or command line, 3 the run failed, 130 interrupted.");
+    app.footer(
+        "Environment:\n"
+        "  GAULT_PLUGIN_PATH  folders or files of plugins, colons between; see `gault list`\n"
+        "  GAULT_ISA          baseline, v3 or v4: the widest instruction set to use\n\n"
+        "Examples:\n"
+        "  gault run configs/paper/fahey.yaml -o out/fahey\n"
+        "  gault check configs/paper/fahey.yaml\n"
+        "  gault describe mohr_coulomb\n"
+        "`gault COMMAND --help` lists the options of a command; docs/index.md of the sources says more.\n\n"
+        "Exit status: 0 done, 2 wrong scene or command line, 3 the run failed, 130 interrupted.");
     std::string level = "info";
     app.add_option("--log-level", level, "debug, info, warn or error")
         ->check(CLI::IsMember({"debug", "info", "warn", "error"}))

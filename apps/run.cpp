@@ -42,7 +42,8 @@ Action declare_run(CLI::App& options) {
     options
         .add_option("-o,--output", arguments->output, "Folder of the results (default: out/NAME_OF_SCENE)")
         ->type_name("FOLDER");
-    options.add_flag("--force", arguments->force, "Replaces the results that the folder holds");
+    options.add_flag("--force", arguments->force,
+                     "Replaces the results that the folder holds; without it such a folder is refused");
     options.add_flag("-q,--quiet", arguments->quiet, "No progress, no closing lines");
     options
         .add_option("-j,--threads", arguments->threads,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace gault::core {
 namespace {
@@ -32,12 +33,19 @@ std::string table(const std::string& title, const std::vector<Row>& rows) {
     return text;
 }
 
+// Angles are given as people write them.
+std::string number(const gault_parameter& p, double value) {
+    if (p.unit && p.unit == std::string_view("rad") && value != 0.0)
+        return fmt::format("{:g} deg", value * 180.0 / std::numbers::pi);
+    return fmt::format("{:g}", value);
+}
+
 std::string bounds(const gault_parameter& p) {
     const char* above = p.flags & GAULT_MIN_OPEN ? ">" : ">=";
     const char* below = p.flags & GAULT_MAX_OPEN ? "<" : "<=";
     std::string text;
-    if (!std::isinf(p.min)) text = fmt::format("{} {:g}", above, p.min);
-    if (!std::isinf(p.max)) text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", below, p.max);
+    if (!std::isinf(p.min)) text = fmt::format("{} {}", above, number(p, p.min));
+    if (!std::isinf(p.max)) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", below, number(p, p.max));
     return text;
 }
 
@@ -84,7 +92,7 @@ std::string fallback(const gault_parameter& p) {
     if (p.flags & GAULT_OPTIONAL) return "optional";
     if (p.type == GAULT_BOOLEAN) return p.fallback == 0.0 ? "false" : "true";
     if (p.type == GAULT_CHOICE) return p.choices[static_cast<std::size_t>(p.fallback)];
-    return fmt::format("{:g}", p.fallback);
+    return number(p, p.fallback);
 }
 
 bool is_number(const gault_parameter& p) {

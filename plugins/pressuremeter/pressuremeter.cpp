@@ -28,10 +28,15 @@ struct Pressuremeter {
     double row_strain;
 
     static constexpr std::array parameters{
-        gault::parameter<&Pressuremeter::rate>("rate", "", "m/s", "Velocity of the wall.").above(0),
-        gault::parameter<&Pressuremeter::strain_rate>("strain_rate", "", "1/s", "Rate of the cavity strain.")
+        gault::parameter<&Pressuremeter::rate>("rate", "", "m/s",
+                                               "Velocity of the wall; this or strain_rate.")
             .above(0),
-        gault::parameter<&Pressuremeter::until>("until", "", "1", "When the test ends.").count(1, 1),
+        gault::parameter<&Pressuremeter::strain_rate>("strain_rate", "", "1/s",
+                                                      "Rate of the cavity strain; this or rate.")
+            .above(0),
+        gault::parameter<&Pressuremeter::until>("until", "", "1",
+                                                "When the test ends, {cavity_strain: 10 %}.")
+            .count(1, 1),
         gault::parameter<&Pressuremeter::ramp_time>("ramp_time", "T", "s",
                                                     "Time over which the wall starts to move.")
             .above(0),

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 using namespace gault::core;
 
@@ -54,9 +55,9 @@ TEST(Describe, ShowsEveryTypeOfParameterAndTheKindsOfRecords) {
     gault_parameter angle = parameter(GAULT_REAL, "angle", "rad", "An angle.");
     angle.symbol = "φ";
     angle.flags = GAULT_MAX_OPEN;
-    angle.fallback = 0.5;
+    angle.fallback = std::numbers::pi / 6.0;
     angle.min = 0.0;
-    angle.max = 1.5;
+    angle.max = std::numbers::pi / 2.0;
     const gault_parameter any = parameter(GAULT_REAL, "any", "1", "Any number.");
     gault_parameter cycles = parameter(GAULT_INTEGER, "cycles", nullptr, "How often.");
     cycles.flags = 0;
@@ -96,7 +97,7 @@ TEST(Describe, ShowsEveryTypeOfParameterAndTheKindsOfRecords) {
     const std::string expected = R"(
 parameters
     name          symbol  unit  default   allowed                             meaning
-    angle         φ       rad   0.5       >= 0, < 1.5                         An angle.
+    angle         φ       rad   30 deg    >= 0, < 90 deg                      An angle.
     any                   1     required  any number                          Any number.
     cycles                      3         whole number, >= 1                  How often.
     smooth                      true      true | false                        Begins smoothly.
