@@ -23,4 +23,8 @@ class RunError : public std::runtime_error { // says at which step, time and poi
     using std::runtime_error::runtime_error;
 };
 
+class InstabilityError : public RunError { // the step may have been too long
+    using RunError::RunError;
+};
+
 } // namespace gault::core

@@ -59,9 +59,9 @@ const std::vector<Shape>& shapes() {
 
 void check_symmetry(const Node& node, const Scene& scene) {
     const bool block = scene.geometry.kind == "block";
-    if (block && scene.symmetry == Symmetry::axisymmetric)
-        throw InputError(node.where(), "model.symmetry: a block is not axisymmetric, it has no axis; "
-                                       "use the geometry annulus or cylinder, or plane_strain");
+    if (block && scene.symmetry != Symmetry::plane_strain)
+        throw InputError(node.where(), "model.symmetry: a block has no axis; use the geometry annulus or "
+                                       "cylinder, or plane_strain");
     if (!block && scene.symmetry == Symmetry::plane_strain)
         throw InputError(node.where(), "model.symmetry: the geometry " + scene.geometry.kind +
                                            " is axisymmetric; use the geometry block for plane_strain");
@@ -111,10 +111,14 @@ void read_model(const Source& source, Scene& scene) {
     const std::string shape =
         "the geometry is " + std::string(scene.geometry.kind == "annulus" ? "an " : "a ");
     if (const Node* symmetry = fields.find("symmetry"); !is_auto(symmetry)) {
-        const auto choice =
-            read_choice(*symmetry, fields.path("symmetry"), {"auto", "axisymmetric", "plane_strain"});
-        scene.symmetry = choice == 1 ? Symmetry::axisymmetric : Symmetry::plane_strain;
+        const auto choice = read_choice(*symmetry, fields.path("symmetry"),
+                                        {"auto", "radial", "axisymmetric", "plane_strain"});
+        scene.symmetry = static_cast<Symmetry>(choice - 1);
         check_symmetry(*symmetry, scene);
+        if (scene.symmetry == Symmetry::radial) {
+            scene.geometry.lower[1] = 0.0;
+            scene.geometry.upper[1] = 1.0;
+        }
     } else {
         note_choice(scene, "symmetry", scene.geometry.kind == "block" ? "plane_strain" : "axisymmetric",
                     shape + scene.geometry.kind);

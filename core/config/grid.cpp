@@ -12,13 +12,23 @@ constexpr double most_graded = 1e6; // largest cell over the smallest
 
 void read_cells(const Fields& fields, Scene& scene) {
     const Node& cells = fields.require("cells", "the number of cells along each axis, [72, 1]");
+    const Bounds allowed{.min = 1, .max = most_cells_an_axis};
+    const bool radial = scene.symmetry == Symmetry::radial;
+    if (radial && cells.kind == NodeKind::scalar) {
+        scene.axes[0].cells = static_cast<int>(read_integer(cells, "grid.cells", allowed));
+        scene.axes[1].cells = 1;
+        return;
+    }
     require_kind(cells, NodeKind::list, fields.path("cells"));
     if (cells.items.size() != 2)
         throw InputError(cells.where(),
                          "grid.cells must be two whole numbers; found " + std::to_string(cells.items.size()));
     for (std::size_t i = 0; i < 2; ++i)
-        scene.axes[i].cells = static_cast<int>(read_integer(cells.items[i], "grid.cells." + std::to_string(i),
-                                                            {.min = 1, .max = most_cells_an_axis}));
+        scene.axes[i].cells =
+            static_cast<int>(read_integer(cells.items[i], "grid.cells." + std::to_string(i), allowed));
+    if (radial && scene.axes[1].cells != 1)
+        throw InputError(cells.items[1].where(), "grid.cells: radial symmetry has one row of cells; found " +
+                                                     described(cells.items[1]));
     const std::int64_t all = std::int64_t{scene.axes[0].cells} * scene.axes[1].cells;
     if (all > most_cells)
         throw InputError(cells.where(),
@@ -99,15 +109,20 @@ void read_points(const Source& source, Scene& scene) {
     nothing.kind = NodeKind::map;
     const Node* node = source.root.find("points");
     const Fields fields(node ? *node : nothing, "points", {"per_cell", "placement"});
-    scene.points_per_cell = 16;
+    const bool radial = scene.symmetry == Symmetry::radial;
+    scene.points_per_cell = radial ? 4 : 16;
     if (const Node* per_cell = fields.find("per_cell"); !is_auto(per_cell)) {
         const auto count = read_integer(*per_cell, "points.per_cell");
-        if (count != 1 && count != 4 && count != 9 && count != 16 && count != 25 && count != 36)
+        if (radial && (count < 1 || count > 6))
+            throw InputError(per_cell->where(),
+                             "points.per_cell is " + described(*per_cell) +
+                                 "; in radial symmetry, where they lie along the radius: 1 to 6");
+        if (!radial && count != 1 && count != 4 && count != 9 && count != 16 && count != 25 && count != 36)
             throw InputError(per_cell->where(), "points.per_cell is " + described(*per_cell) +
                                                     "; allowed: the squares 1, 4, 9, 16, 25, 36");
         scene.points_per_cell = static_cast<int>(count);
     } else {
-        note_choice(scene, "points.per_cell", "16", "four a direction");
+        note_choice(scene, "points.per_cell", std::to_string(scene.points_per_cell), "four a direction");
     }
     scene.placement = Placement::gauss;
     if (const Node* placement = fields.find("placement"); !is_auto(placement))

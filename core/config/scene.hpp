@@ -12,7 +12,11 @@
 
 namespace gault::core {
 
-enum class Symmetry { axisymmetric, plane_strain };
+enum class Symmetry {
+    radial,
+    axisymmetric,
+    plane_strain
+}; // radial: a metre of height, nothing varies along it
 enum class Frame { total, updated };
 enum class Basis { linear, quadratic };
 enum class Placement { uniform, gauss };
@@ -112,7 +116,7 @@ struct Scene {
     Basis basis;
     Geometry geometry;
     std::array<GridAxis, 2> axes;
-    int points_per_cell; // a square number
+    int points_per_cell; // a square number; in radial symmetry any, along the radius
     Placement placement;
 
     std::vector<MaterialUse> materials;

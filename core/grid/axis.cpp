@@ -22,6 +22,7 @@ std::vector<double> Axis::graded(double lower, double upper, int cells, double r
 }
 
 double Axis::node(int i) const {
+    if (degree_ == 0) return 0.5 * (knots_[0] + knots_[1]);
     if (degree_ == 1) return knots_[i];
     // Mean of the two inner knots of the function's support; the end knots are repeated.
     const int last = cells();
@@ -35,6 +36,7 @@ int Axis::cell_of(double x) const {
 
 Axis::Weights Axis::weights(int cell, double xi) const {
     const double a = 1.0 - xi, per_length = inverse_length_[cell];
+    if (degree_ == 0) return {{1.0, 0.0, 0.0}, {}};
     if (degree_ == 1) return {{a, xi, 0.0}, {-per_length, per_length, 0.0}};
     const double l = left_[cell], r = right_[cell];
     Weights w;

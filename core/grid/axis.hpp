@@ -9,10 +9,10 @@ namespace gault::core {
 
 // Linear (2 functions a cell) or quadratic B-spline (3 functions a cell) on clamped, non-uniform knots: the
 // first and the last function are 1 on the end of the axis, so a wall node is the wall (de Boor 1978; Steffen
-// et al. 2008).
+// et al. 2008). Degree 0, one cell with the one function 1: nothing varies along this axis.
 class Axis {
   public:
-    Axis(std::vector<double> knots, int degree); // knots strictly increasing, m; degree 1 or 2
+    Axis(std::vector<double> knots, int degree); // knots strictly increasing, m; degree 0, 1 or 2
 
     // `cells` cells from lower to upper, each `ratio` times as long as the one before.
     static std::vector<double> graded(double lower, double upper, int cells, double ratio);

@@ -43,7 +43,8 @@ class Grid {
     Axis& axis(int k) { return axes_[k]; }
     const NodeLayout& layout() const { return layout_; }
     bool axisymmetric() const { return axisymmetric_; }
-    int degree() const { return axes_[0].degree(); }
+    int degree(int k) const { return axes_[k].degree(); }
+    bool radial() const { return degree(1) == 0; } // plane strain along y, and nothing varies
 
     // Node indices (i, j) along a side, in increasing order of the tangential coordinate.
     int side_nodes(int side) const { return side < 2 ? layout_.ny : layout_.nx; }

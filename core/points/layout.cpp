@@ -50,8 +50,8 @@ Layout lay_out(const std::vector<int32_t>& cell, const LayoutRequest& request) {
         Batch& batch = layout.batches[b];
         batch.first_page = page;
         batch.patch = layout.patch_size;
-        batch.patch_row = batch.columns + request.degree;
-        layout.patch_size += static_cast<std::size_t>(batch.patch_row) * (request.degree + 1);
+        batch.patch_row = batch.columns + request.degree[0];
+        layout.patch_size += static_cast<std::size_t>(batch.patch_row) * (request.degree[1] + 1);
         layout.page_column.resize(page + batch.capacity, batch.first_column);
         layout.page_live.resize(page + batch.capacity, 0);
         int at = page;

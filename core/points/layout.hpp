@@ -1,6 +1,7 @@
 // Where the points of one material lie in memory: pages of eight slots, each page in one grid cell, pages in
 // batches, each batch in one row of cells.
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -26,9 +27,9 @@ struct Layout {
 };
 
 struct LayoutRequest {
-    int columns, rows; // of cells
-    int degree;        // of the basis: the size of a patch
-    bool roaming;      // points may enter any cell: batches cover the whole grid and keep spare pages
+    int columns, rows;         // of cells
+    std::array<int, 2> degree; // of the bases: the size of a patch
+    bool roaming;              // points may enter any cell: batches cover the whole grid and keep spare pages
     int pages_per_batch = 64;
 };
 

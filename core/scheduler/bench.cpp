@@ -1,6 +1,7 @@
 #include "core/scheduler/bench.hpp"
 #include "core/scheduler/program.hpp"
 #include "core/scheduler/verification.hpp"
+#include "core/solver/explicit.hpp"
 
 #include <chrono>
 #include <cmath>

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace gault::core {
 namespace {
@@ -21,17 +22,17 @@ const gault_program_signals& signals_of(const Instance& instance) {
 } // namespace
 
 void check_measure(const Location& where, const char* owner, const std::string& name, bool has_surface) {
-    const auto& known = ExplicitSolver::measure_names();
+    const auto& known = Solver::measure_names();
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw InputError(where,
                          fmt::format("'{}' asks for the measure '{}', which this host does not offer{}",
                                      owner, name, suggestion(name, known)));
-    if (ExplicitSolver::measures_surface(name) && !has_surface)
+    if (Solver::measures_surface(name) && !has_surface)
         throw InputError(
             where, fmt::format("'{}' measures '{}' of a surface: say which one with `on:`", owner, name));
 }
 
-Program::Program(const Scene& scene, ExplicitSolver& solver)
+Program::Program(const Scene& scene, Solver& solver)
     : instance_(*scene.program.component, scene.program.parameters), solver_(solver),
       where_(scene.program.parameters.where), side_(scene.program_surface) {
     const gault_program_signals& signals = signals_of(instance_);
@@ -69,27 +70,50 @@ void Program::bind(const Scene& scene, const gault_program_signals& signals) {
                 where_, fmt::format("program '{}' commands '{}' in {}, the boundary {} expects {}",
                                     instance_.declaration().name, signal.name, signal.unit, place, unit));
         control_.push_back(signal.initial);
+        for (double* listener : control.listeners)
+            *listener = signal.initial;
         controls_.push_back(std::move(control));
     }
 }
 
 Program::Answer Program::advance(double dt, double next_dt) {
+    const Call call{solver_.steps(), dt, memory_, control_};
+    const Answer answer = ask(call, next_dt);
+    if (answer.repeat) {
+        memory_ = call.memory;
+        control_ = call.control;
+    } else {
+        before_last_ = std::exchange(last_, call);
+    }
+    return answer;
+}
+
+Program::Answer Program::repeat(double next_dt) {
+    memory_ = last_.memory;
+    control_ = last_.control;
+    return ask(last_, next_dt);
+}
+
+Program::Answer Program::ask(const Call& call, double next_dt) {
     for (std::size_t k = 0; k < measures_.size(); ++k)
         measure_[k] = solver_.measure(measures_[k], side_.value_or(0)).value();
     gault_step step{};
     step.size = sizeof step;
-    step.index = solver_.steps();
+    step.index = call.index;
     step.time = solver_.time();
-    step.dt = dt;
+    step.dt = call.dt;
     step.smallest_dt = next_dt;
     step.measure = measure_.data();
     step.control = control_.data();
     step.memory = memory_.data();
     step.record = record_.data();
-    step.final = 1;
+    step.final = solver_.repeatable() ? 0 : 1;
     step.next = std::numeric_limits<double>::infinity();
+    step.suggest = 0.5;
     gault_error error{-1, 0, -1, ""};
     const gault_status status = instance_.api<gault_program_api>().advance(instance_.self(), &step, &error);
+    if (status == GAULT_RETRY && solver_.repeatable())
+        return {false, false, step.next, true, std::clamp(step.suggest, 1e-3, 0.999)};
     if (status != GAULT_OK)
         throw RunError(fmt::format(
             "program '{}': {}{}", instance_.declaration().name,

@@ -1,9 +1,11 @@
 #include "core/scheduler/run.hpp"
+#include "core/base/isa.hpp"
 #include "core/base/log.hpp"
 #include "core/scheduler/program.hpp"
 #include "core/scheduler/progress.hpp"
 #include "core/scheduler/snapshot.hpp"
 #include "core/scheduler/verification.hpp"
+#include "core/solver/solver.hpp"
 
 #include <fmt/format.h>
 
@@ -42,9 +44,11 @@ class Run {
   public:
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene), options_(options), model_(build_model(scene)),
-          threads_(threads_that_pay(point_count(), options.threads)), solver_(scene, model_, threads_),
-          program_(scene, solver_), verification_(scene, columns()),
-          writer_(options.folder, options.replace, columns(), provenance(), point_count()) {}
+          threads_(threads_that_pay(point_count(), options.threads)),
+          solver_(make_solver(scene, model_, threads_)), program_(scene, *solver_),
+          verification_(scene, columns()),
+          writer_(options.folder, options.replace, columns(), provenance(), point_count()),
+          frames_wanted_(scene.frames.values.begin(), scene.frames.values.end()) {}
 
     Outcome go();
 
@@ -66,18 +70,20 @@ class Run {
     void fail(const std::string& message); // what was written stays, with the reason
     std::string advice() const;
     double largest_kinetic_ratio() const;
+    std::string kinetic_caution() const; // empty: none
     void report() const;
+    void report_reference() const;
 
     const Scene& scene_;
     const RunOptions& options_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     Model model_;
     int threads_;
-    ExplicitSolver solver_;
+    std::unique_ptr<Solver> solver_;
     Program program_;
     Verification verification_;
     ResultWriter writer_;
-    std::size_t next_frame_ = 0;
+    std::vector<Crossing> frames_wanted_;
     int64_t frame_step_ = -1, frames_ = 0;
     double stepping_ = 0.0; // s
     nlohmann::json reference_, derived_;
@@ -120,7 +126,7 @@ Provenance Run::provenance() const {
             {{"program", "gault " + options_.program_version},
              {"command", options_.command_line},
              {"threads", threads_},
-             {"instruction_set", select_kernels(model_.grid.degree(), model_.grid.axisymmetric()).isa},
+             {"instruction_set", isa_name(best_isa())},
              {"scene", scene_.file.string()},
              {"scene_sha256", sha256_of_file(scene_.file)},
              {"plugins", plugins}}};
@@ -128,47 +134,43 @@ Provenance Run::provenance() const {
 
 // Ends exactly at the next event, without a last crumb of a step.
 double Run::step_length(double next) {
-    const double allowed = solver_.allowed_step(), left = next - solver_.time();
+    const double allowed = solver_->allowed_step(), left = next - solver_->time();
     if (left <= 0.0 || left > 2.0 * allowed) return allowed;
     return left > allowed ? 0.5 * left : left;
 }
 
 void Run::row() {
-    const Energies energies = solver_.energies();
-    std::vector<double> values{solver_.time()};
+    const Energies energies = solver_->energies();
+    std::vector<double> values{solver_->time()};
     values.insert(values.end(), program_.record().begin(), program_.record().end());
-    for (const double v : {static_cast<double>(solver_.steps()), energies.ratio(), energies.error(),
-                           solver_.largest_velocity()})
+    for (const double v : {static_cast<double>(solver_->steps()), energies.ratio(), energies.error(),
+                           solver_->largest_velocity()})
         values.push_back(v);
     writer_.row(values);
 }
 
 double Run::measured(const std::string& name) const {
-    if (name == "time") return solver_.time();
+    if (name == "time") return solver_->time();
     return program_.record()[program_.column(name).value()];
 }
 
 void Run::write_frame() {
-    if (frame_step_ == solver_.steps()) return;
-    frame_step_ = solver_.steps();
-    std::vector<FrameAttribute> attributes{{"time", "s", solver_.time()}};
+    if (frame_step_ == solver_->steps()) return;
+    frame_step_ = solver_->steps();
+    std::vector<FrameAttribute> attributes{{"time", "s", solver_->time()}};
     for (std::size_t k = 0; k < program_.columns().size(); ++k)
         attributes.push_back({program_.columns()[k].name, program_.columns()[k].unit, program_.record()[k]});
-    writer_.frame(attributes, frame_datasets(solver_.motion()));
+    writer_.frame(attributes, frame_datasets(solver_->motion()));
     ++frames_;
     summary("running", "");
 }
 
 void Run::frames_due(bool last) {
     for (const ProfileReference& profile : scene_.profiles)
-        verification_.at(profile.measure, measured(profile.measure), solver_.motion());
-    const auto& values = scene_.frames.values;
+        verification_.at(profile.measure, measured(profile.measure), solver_->motion());
     bool due = last;
-    while (next_frame_ < values.size() &&
-           measured(scene_.frames.measure) >= values[next_frame_] * (1.0 - 1e-9)) {
-        due = true;
-        ++next_frame_;
-    }
+    for (Crossing& frame : frames_wanted_)
+        due |= frame.reached(measured(scene_.frames.measure));
     if (due) write_frame();
 }
 
@@ -176,7 +178,7 @@ std::string Run::advice() const {
     if (scene_.solver.time_step_factor > 1.0)
         return fmt::format(
             "solver.time_step_factor is {:g}: above 1 the step exceeds the stability limit of {:.4g} s",
-            scene_.solver.time_step_factor, solver_.stability_limit());
+            scene_.solver.time_step_factor, solver_->stability_limit());
     return fmt::format("try a smaller solver.time_step_factor (now {:g}) or a gentler load",
                        scene_.solver.time_step_factor);
 }
@@ -188,29 +190,31 @@ void Run::fail(const std::string& message) {
 
 void Run::summary(const char* status, const std::string& message) {
     const double wall = seconds_since(start_);
+    std::vector<std::string> said = cautions(scene_);
+    if (const std::string caution = kinetic_caution(); !caution.empty()) said.push_back(caution);
     nlohmann::json s = {
         {"status", status},
         {"title", scene_.title},
         {"program_version", options_.program_version},
         {"plan", scene_.chosen},
-        {"cautions", cautions(scene_)},
+        {"cautions", said},
         {"counts",
          {{"points", point_count()},
           {"cells", static_cast<int64_t>(model_.grid.axis(0).cells()) * model_.grid.axis(1).cells()},
-          {"steps", solver_.steps()},
-          {"constitutive_updates", solver_.motion().updates()},
+          {"steps", solver_->steps()},
+          {"constitutive_updates", solver_->motion().updates()},
           {"frames", frames_}}},
-        {"time", solver_.time()},
-        {"stable_step_s", solver_.stability_limit()},
+        {"time", solver_->time()},
         {"energy",
-         {{"kinetic_ratio", solver_.energies().ratio()},
+         {{"kinetic_ratio", solver_->energies().ratio()},
           {"largest_kinetic_ratio", largest_kinetic_ratio()},
-          {"energy_error", solver_.energies().error()}}},
+          {"energy_error", solver_->energies().error()}}},
         {"wall_seconds", {{"total", wall}, {"stepping", stepping_}, {"other", wall - stepping_}}},
         {"threads", threads_},
         {"derived", derived_},
         {"reference", reference_},
         {"provenance", provenance().text}};
+    if (solver_->stability_limit() > 0.0) s["stable_step_s"] = solver_->stability_limit();
     if (!message.empty()) s["message"] = message;
     writer_.summary(s);
 }
@@ -220,29 +224,51 @@ double Run::largest_kinetic_ratio() const {
     const std::size_t column = program_.columns().size() + 2; // see columns()
     double largest = 0.0;
     for (const auto& row : writer_.rows())
-        if (row[0] >= start_share * solver_.time()) largest = std::max(largest, row[column]);
+        if (row[0] >= start_share * solver_->time()) largest = std::max(largest, row[column]);
     return largest;
 }
 
-void Run::report() const {
-    log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver_.steps(), point_count(),
-              seconds_since(start_),
-              stepping_ > 0.0 ? static_cast<double>(solver_.steps()) * static_cast<double>(point_count()) /
-                                    stepping_ * 1e-6
-                              : 0.0);
-    log::info("kinetic energy at most {:.2g} % of the internal energy after the first {:g} % of the time; "
-              "energy error {:.2g} %",
-              100.0 * largest_kinetic_ratio(), 100.0 * start_share, 100.0 * solver_.energies().error());
-    if (reference_.contains("curves"))
-        for (const auto& c : reference_["curves"])
-            log::info("{}: largest relative error {:.4f} % at {} = {:.4g}", c["y"].get<std::string>(),
+// A quasi-static curve of a run that is not quasi-static is the commonest misuse of mass scaling.
+std::string Run::kinetic_caution() const {
+    if (largest_kinetic_ratio() <= 0.05) return "";
+    return fmt::format(
+        "caution: kinetic energy reached {:.0f} % of the strain energy; this run shows inertia, not "
+        "a quasi-static test. Load more slowly{}",
+        100.0 * largest_kinetic_ratio(),
+        scene_.solver.mass_scaling > 1.0 ? ", or lower solver.mass_scaling" : "");
+}
+
+void Run::report_reference() const {
+    for (const auto& c : reference_.value("curves", nlohmann::json::array())) {
+        const std::string y = c["y"];
+        if (c.contains("not_compared"))
+            log::warn("{} not compared: {}", y, c["not_compared"].get<std::string>());
+        else
+            log::info("{}: largest relative error {:.4f} % at {} = {:.4g}", y,
                       100.0 * c["largest_relative_error"].get<double>(), c["x"].get<std::string>(),
                       c["largest_at"].get<double>());
-    if (reference_.contains("profiles"))
-        for (const auto& p : reference_["profiles"])
+    }
+    for (const auto& p : reference_.value("profiles", nlohmann::json::array())) {
+        if (p.contains("not_compared"))
+            log::warn("profile not compared: {}", p["not_compared"].get<std::string>());
+        else
             log::info("{} = {:g}: L2 error of raw sigma_r {:.4f} %, sigma_theta {:.4f} %",
                       p["measure"].get<std::string>(), p["value"].get<double>(),
                       100.0 * p["sigma_r_l2"].get<double>(), 100.0 * p["sigma_theta_l2"].get<double>());
+    }
+}
+
+void Run::report() const {
+    log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver_->steps(), point_count(),
+              seconds_since(start_),
+              stepping_ > 0.0 ? static_cast<double>(solver_->steps()) * static_cast<double>(point_count()) /
+                                    stepping_ * 1e-6
+                              : 0.0);
+    log::info("kinetic energy at most {:.2g} % of the strain energy after the first {:g} % of the time; "
+              "energy error {:.2g} %",
+              100.0 * largest_kinetic_ratio(), 100.0 * start_share, 100.0 * solver_->energies().error());
+    if (const std::string caution = kinetic_caution(); !caution.empty()) log::warn("{}", caution);
+    report_reference();
     for (const auto& [name, results] : derived_.items())
         for (const auto& [key, value] : results.items())
             log::info("{} {}: {:.6g}", name, key, value.get<double>());
@@ -255,20 +281,28 @@ Outcome Run::go() {
     Interrupts interrupts;
     Progress progress(point_count(), options_.quiet);
     try {
-        Program::Answer answer = program_.advance(0.0, solver_.allowed_step());
+        Program::Answer answer = program_.advance(0.0, solver_->allowed_step());
         if (answer.emit) row();
         frames_due(false);
         const auto stepping = std::chrono::steady_clock::now();
         while (!answer.done && !interrupted) {
             const double dt = step_length(answer.next);
-            solver_.step(dt);
-            answer = program_.advance(dt, solver_.allowed_step());
+            if (!solver_->step(dt)) {
+                answer = program_.repeat(solver_->allowed_step());
+                continue;
+            }
+            answer = program_.advance(dt, solver_->allowed_step());
+            if (answer.repeat) {
+                solver_->undo(answer.fraction);
+                answer = program_.repeat(solver_->allowed_step());
+                continue;
+            }
             if (answer.emit) row();
             frames_due(false);
-            if (progress.due(solver_.steps())) {
+            if (progress.due(solver_->steps())) {
                 const auto& shown = program_.columns();
                 progress.show(
-                    {solver_.steps(), solver_.time(), answer.next,
+                    {solver_->steps(), solver_->time(), answer.next,
                      shown.empty() ? "" : fmt::format("{} {:.4g}", shown[0].name, program_.record()[0])});
             }
         }
@@ -276,13 +310,15 @@ Outcome Run::go() {
         frames_due(true);
         if (!interrupted) {
             reference_ = verification_.finish(writer_.rows());
-            derived_ = verification_.observe(solver_);
+            derived_ = verification_.observe(*solver_);
         }
         summary(interrupted ? "interrupted" : "done", "");
         writer_.finish();
     } catch (const RunError& error) {
-        const std::string message = fmt::format("step {}, t = {:.6g} s: {}; {}", solver_.steps(),
-                                                solver_.time(), error.what(), advice());
+        const bool unstable = dynamic_cast<const InstabilityError*>(&error) != nullptr;
+        const std::string message =
+            fmt::format("step {}, t = {:.6g} s: {}{}", solver_->steps(), solver_->time(), error.what(),
+                        unstable ? "; " + advice() : "");
         fail(message);
         throw RunError(message);
     } catch (const std::exception& error) { // a program drives two boundaries against each other, no memory
@@ -328,8 +364,8 @@ Outcome run_scene(const Scene& scene, const RunOptions& options) {
 
 std::vector<std::string> check_scene(const Scene& scene) {
     Model model = build_model(scene);
-    ExplicitSolver solver(scene, model, 1);
-    Program program(scene, solver);
+    const std::unique_ptr<Solver> solver = make_solver(scene, model, 1);
+    Program program(scene, *solver);
     std::vector<ColumnInfo> columns{{"time", "s", ""}};
     columns.insert(columns.end(), program.columns().begin(), program.columns().end());
     Verification verification(scene, columns);
@@ -340,10 +376,10 @@ std::vector<std::string> check_scene(const Scene& scene) {
     for (std::size_t m = 0; m < model.materials.size(); ++m)
         lines.push_back(
             fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));
-    for (std::string& line : solver.boundaries().description())
+    for (std::string& line : solver->boundaries().description())
         lines.push_back(std::move(line));
-    const double dt = solver.allowed_step();
-    lines.push_back(fmt::format("stable step {:.4g} s, used {:.4g} s", solver.stability_limit(), dt));
+    const double dt = solver->allowed_step();
+    lines.push_back(fmt::format("stable step {:.4g} s, used {:.4g} s", solver->stability_limit(), dt));
     return lines;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace gault::core {
 namespace {
@@ -59,10 +60,13 @@ Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& co
     for (const ProfileReference& use : scene.profiles)
         for (const ProfileReference::At& at : use.at) {
             const CsvTable table = read_csv(at.file);
-            profiles_.push_back({use.measure, at.value, at.file,
+            profiles_.push_back({use.measure,
+                                 Crossing(at.value),
+                                 at.file,
                                  read_column(table, at.file, "reference_radius", "m"),
                                  read_column(table, at.file, "sigma_r", "Pa"),
-                                 read_column(table, at.file, "sigma_theta", "Pa")});
+                                 read_column(table, at.file, "sigma_theta", "Pa"),
+                                 {}});
         }
     for (const Scene::ObserverUse& use : scene.observers) {
         Observer observer{Instance(*use.model.component, use.model.parameters), use.surface.value_or(0), {}};
@@ -76,10 +80,16 @@ Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& co
     }
 }
 
+bool Crossing::reached(double now) {
+    const double distance = now - target_, before = std::exchange(before_, now) - target_;
+    if (done_) return false;
+    done_ = std::abs(distance) <= 1e-9 * std::abs(target_) || before * distance < 0.0;
+    return done_;
+}
+
 void Verification::at(const std::string& measure, double value, const Motion& motion) {
     for (Profile& profile : profiles_) {
-        if (profile.done || profile.measure != measure || value < profile.value * (1.0 - 1e-9)) continue;
-        profile.done = true;
+        if (profile.measure != measure || !profile.value.reached(value)) continue;
         PointArrays points = collect(motion);
         for (const int k : {0, 2})
             for (double& s : points.stress[k])
@@ -88,11 +98,8 @@ void Verification::at(const std::string& measure, double value, const Motion& mo
             return profile_error(points.reference[0], points.stress[k], points.volume, profile.radius,
                                  reference);
         };
-        profile_errors_.push_back({{"measure", measure},
-                                   {"value", profile.value},
-                                   {"file", std::filesystem::relative(profile.file).string()},
-                                   {"sigma_r_l2", error(0, profile.sigma_r)},
-                                   {"sigma_theta_l2", error(2, profile.sigma_theta)}});
+        profile.errors = {{"sigma_r_l2", error(0, profile.sigma_r)},
+                          {"sigma_theta_l2", error(2, profile.sigma_theta)}};
     }
 }
 
@@ -104,26 +111,40 @@ nlohmann::json Verification::finish(const std::vector<std::vector<double>>& rows
             x.push_back(row[curve.x]);
             y.push_back(row[curve.y]);
         }
-        const CurveError error =
-            compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use->from, curve.use->to);
         nlohmann::json j = {{"x", curve.use->x},
                             {"y", curve.use->y},
-                            {"file", std::filesystem::relative(curve.use->file).string()},
+                            {"file", curve.use->file.lexically_relative(folder_).string()},
                             {"from", curve.use->from},
-                            {"to", curve.use->to},
-                            {"largest_relative_error", error.largest},
-                            {"largest_at", error.largest_at},
-                            {"root_mean_square", error.root_mean_square},
-                            {"rows", error.rows}};
-        if (curve.use->noise)
-            j["noise_about_cubic"] = noise_about_cubic(x, y, (*curve.use->noise)[0], (*curve.use->noise)[1]);
+                            {"to", curve.use->to}};
+        try {
+            const CurveError error =
+                compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use->from, curve.use->to);
+            j["largest_relative_error"] = error.largest;
+            j["largest_at"] = error.largest_at;
+            j["root_mean_square"] = error.root_mean_square;
+            j["rows"] = error.rows;
+            if (curve.use->noise)
+                j["noise_about_cubic"] =
+                    noise_about_cubic(x, y, (*curve.use->noise)[0], (*curve.use->noise)[1]);
+        } catch (const InputError& error) {
+            j["not_compared"] = error.what();
+        }
         result["curves"].push_back(std::move(j));
     }
-    if (!profile_errors_.empty()) result["profiles"] = profile_errors_;
+    for (const Profile& profile : profiles_) {
+        nlohmann::json j = {{"measure", profile.measure},
+                            {"value", profile.value.target()},
+                            {"file", profile.file.lexically_relative(folder_).string()}};
+        if (profile.errors.is_null())
+            j["not_compared"] = fmt::format("{} never reached {:g}", profile.measure, profile.value.target());
+        else
+            j.update(profile.errors);
+        result["profiles"].push_back(std::move(j));
+    }
     return result;
 }
 
-nlohmann::json Verification::observe(ExplicitSolver& solver) {
+nlohmann::json Verification::observe(Solver& solver) {
     nlohmann::json all = nlohmann::json::object();
     if (observers_.empty()) return all;
     const Motion& motion = solver.motion();
@@ -161,7 +182,10 @@ nlohmann::json Verification::observe(ExplicitSolver& solver) {
         if (api.evaluate(observer.instance.self(), &sample, &error) != GAULT_OK)
             throw RunError(fmt::format("observer '{}': {}", observer.instance.declaration().name,
                                        std::string(error.text, strnlen(error.text, GAULT_TEXT))));
-        nlohmann::json& j = all[observer.instance.declaration().name];
+        std::string key = observer.instance.declaration().name;
+        for (int n = 2; all.contains(key); ++n)
+            key = fmt::format("{}_{}", observer.instance.declaration().name, n);
+        nlohmann::json& j = all[key];
         for (uint32_t k = 0; k < api.result_count; ++k)
             if (std::isfinite(result[k])) j[api.results[k].name] = result[k];
     }

@@ -4,13 +4,26 @@
 #include "core/output/compare.hpp"
 #include "core/output/results.hpp"
 #include "core/registry/instance.hpp"
-#include "core/solver/explicit.hpp"
+#include "core/solver/solver.hpp"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace gault::core {
+
+// Notices when a quantity reaches or passes a value, in either direction, for the first time.
+class Crossing {
+  public:
+    explicit Crossing(double target) : target_(target) {}
+    double target() const { return target_; }
+    bool reached(double now); // true once
+
+  private:
+    double target_, before_ = std::numeric_limits<double>::quiet_NaN();
+    bool done_ = false;
+};
 
 class Verification {
   public:
@@ -19,9 +32,10 @@ class Verification {
     // Compares the profiles that are due when `measure` has reached `value`.
     void at(const std::string& measure, double value, const Motion& motion);
     // Errors of the whole history; the history's columns are those given to the constructor.
+    // What could not be compared says why, under `not_compared`.
     nlohmann::json finish(const std::vector<std::vector<double>>& rows) const;
     // Results of the observers at the present state.
-    nlohmann::json observe(ExplicitSolver& solver);
+    nlohmann::json observe(Solver& solver);
 
   private:
     struct Curve {
@@ -31,10 +45,10 @@ class Verification {
     };
     struct Profile {
         std::string measure;
-        double value;
+        Crossing value;
         std::filesystem::path file;
         std::vector<double> radius, sigma_r, sigma_theta; // m; Pa, compression positive
-        bool done = false;
+        nlohmann::json errors;                            // null before its value is reached
     };
     struct Observer {
         Instance instance;
@@ -44,7 +58,6 @@ class Verification {
     std::vector<Curve> curves_;
     std::vector<Profile> profiles_;
     std::vector<Observer> observers_;
-    nlohmann::json profile_errors_ = nlohmann::json::array();
     std::filesystem::path folder_; // of the scene
 };
 

@@ -107,14 +107,15 @@ void Boundaries::refuse(const Condition& condition, gault_status status, const g
 
 void Boundaries::constrain(const Motion& motion, double time, double dt, FixedField& fixed,
                            VectorField& value) {
-    fixed.clear();
+    fixed.release();
     value.clear();
     const Grid& grid = motion.grid();
     if (grid.axisymmetric() && grid.axis(0).lower() == 0.0) // no motion across the axis
         for (int j = 0; j < grid.layout().ny; ++j)
-            fixed.c[0][grid.layout().index(0, j)] = 1.0;
+            fixed.hold(FixedField::symmetry, 0, grid.layout().index(0, j));
     for (Condition& condition : conditions_)
-        for (Held& held : condition.held) {
+        for (std::size_t s = 0; s < condition.held.size(); ++s) {
+            Held& held = condition.held[s];
             gault_nodes nodes{};
             nodes.size = sizeof nodes;
             nodes.count = static_cast<int64_t>(held.node.size());
@@ -137,11 +138,11 @@ void Boundaries::constrain(const Motion& motion, double time, double dt, FixedFi
             gault_error error{-1, 0, -1, ""};
             const gault_status status = condition.api().constrain(condition.instance.self(), &nodes, &error);
             if (status != GAULT_OK) refuse(condition, status, error);
-            impose(condition, held, fixed, value);
+            impose(condition, condition.sides[s], held, fixed, value);
         }
 }
 
-void Boundaries::impose(const Condition& condition, const Held& held, FixedField& fixed,
+void Boundaries::impose(const Condition& condition, int side, const Held& held, FixedField& fixed,
                         VectorField& value) const {
     for (int a = 0; a < 2; ++a)
         for (std::size_t k = 0; k < held.node.size(); ++k) {
@@ -161,7 +162,7 @@ void Boundaries::impose(const Condition& condition, const Held& held, FixedField
                         "prescribes {:g} m/s",
                         condition.instance.declaration().name, fmt::join(condition.names, ", "),
                         a ? "v_y" : "v_x", wanted, value.c[a][n]));
-            fixed.c[a][n] = 1.0;
+            fixed.hold(side, a, n);
             value.c[a][n] = wanted;
         }
 }
@@ -169,6 +170,7 @@ void Boundaries::impose(const Condition& condition, const Held& held, FixedField
 void Boundaries::load(const Motion& motion, double time, double dt, const VectorField& velocity,
                       VectorField& force) {
     force.clear();
+    load_on_ = {};
     for (Condition& condition : conditions_)
         for (std::size_t s = 0; s < condition.loaded.size(); ++s) {
             Loaded& l = condition.loaded[s];
@@ -210,8 +212,11 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
             for (std::size_t q = 0; q < n; ++q) {
                 const auto area = surface.area(q);
                 const double size = std::sqrt(area[0] * area[0] + area[1] * area[1]), p = l.pressure[q];
-                surface.add_force(
-                    force, q, {l.traction[0][q] * size - p * area[0], l.traction[1][q] * size - p * area[1]});
+                const std::array<double, 2> push{l.traction[0][q] * size - p * area[0],
+                                                 l.traction[1][q] * size - p * area[1]};
+                surface.add_force(force, q, push);
+                for (int a = 0; a < 2; ++a)
+                    load_on_[condition.sides[s]][a] += push[a];
             }
         }
 }

@@ -29,6 +29,8 @@ class Boundaries {
     void constrain(const Motion& motion, double time, double dt, FixedField& fixed, VectorField& value);
     // Nodal forces from surface loads at the present positions.
     void load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force);
+    // Of the last load: the force on a side, N.
+    const std::array<double, 2>& load_on(int side) const { return load_on_[side]; }
 
     Surface& surface(int side) { return surfaces_[side]; }
     const Surface& surface(int side) const { return surfaces_[side]; }
@@ -64,10 +66,12 @@ class Boundaries {
     void hold(Condition& condition, const Motion& motion);
     void prepare_load(Condition& condition,
                       const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
-    void impose(const Condition& condition, const Held& held, FixedField& fixed, VectorField& value) const;
+    void impose(const Condition& condition, int side, const Held& held, FixedField& fixed,
+                VectorField& value) const;
     [[noreturn]] void refuse(const Condition& condition, gault_status status, const gault_error& error) const;
 
     std::vector<Surface> surfaces_;
+    std::array<std::array<double, 2>, 4> load_on_{};
     std::vector<Condition> conditions_;
 };
 

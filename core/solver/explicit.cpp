@@ -6,73 +6,62 @@
 namespace gault::core {
 namespace {
 
-constexpr double strain_between_limits = 0.02;
+constexpr double strain_between_limits = 0.02, strain_between_looks = 0.002, stiffer = 1.05;
 
-std::unique_ptr<Motion> make_motion(const Scene& scene, Model& model, int threads) {
-    if (scene.frame == Frame::total)
-        return make_total_motion(model.grid, model.materials, model.points, threads);
-    return make_updated_motion(model.grid, model.materials, model.points, threads,
-                               scene.solver.stress_update == StressUpdate::usf);
+double largest(const Column& column) {
+    return column.empty() ? 0.0 : *std::max_element(column.begin(), column.end());
 }
 
 } // namespace
 
-double Energies::ratio() const {
-    return internal == 0.0 ? 0.0 : kinetic / std::abs(internal);
-}
-
-double Energies::error() const {
-    const double largest =
-        std::max({std::abs(kinetic), std::abs(internal), std::abs(external), std::abs(damping)});
-    return largest == 0.0 ? 0.0 : std::abs(kinetic + internal - external - damping) / largest;
-}
-
 ExplicitSolver::ExplicitSolver(const Scene& scene, Model& model, int threads)
-    : settings_(scene.solver), gravity_(scene.gravity), model_(model),
-      motion_(make_motion(scene, model, threads)), boundaries_(scene, *motion_, model.behind(scene)),
-      internal_(model.grid.layout()), internal_before_(internal_), traction_(internal_),
-      acceleration_(internal_), velocity_(internal_), velocity_before_(internal_), damping_(internal_),
-      reaction_(internal_), value_(internal_), fixed_(internal_),
-      energies_of_row_(static_cast<std::size_t>(model.grid.layout().ny)) {
-    for (int side = 0; side < 4; ++side) {
-        initial_area_[side] = boundaries_.surface(side).total_area();
-        initial_radius_[side] = boundaries_.surface(side).mean_radius();
-    }
-    motion_->forces(internal_);
-    boundaries_.constrain(*motion_, time_, 0.0, fixed_,
-                          value_); // conditions that contradict each other are refused here
-}
+    : Solver(scene, model, threads), internal_initial_(internal_), internal_before_(internal_),
+      traction_before_(internal_), acceleration_(model.grid.layout()), velocity_before_(acceleration_),
+      damping_(acceleration_), work_of_row_(static_cast<std::size_t>(model.grid.layout().ny)) {}
 
 double ExplicitSolver::allowed_step() {
-    if (limit_ == 0.0 || strained_ > strain_between_limits) refresh_limit();
+    if (limit_is_stale()) refresh_limit(moduli());
     return settings_.time_step_factor * limit_;
 }
 
-void ExplicitSolver::refresh_limit() {
-    std::vector<std::array<Column, 2>> moduli(model_.materials.size());
-    std::vector<std::array<double, 2>> viscosity(model_.materials.size());
-    for (std::size_t m = 0; m < moduli.size(); ++m) {
-        if (model_.points[m].count() == 0) continue;
-        evaluate_moduli(model_.materials[m], model_.points[m], view_of(model_.grid), moduli[m][0],
-                        moduli[m][1]);
-        const double p_wave = *std::max_element(moduli[m][0].begin(), moduli[m][0].end());
-        const double shear = *std::max_element(moduli[m][1].begin(), moduli[m][1].end());
-        viscosity[m] = {settings_.viscosity * (p_wave - 2.0 * shear), settings_.viscosity * shear};
-    }
-    boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_);
-    // Local damping adds up to its share to the forces that resist, a viscous stress acts with half a step's
-    // delay: the limit falls by sqrt(1 + alpha) and sqrt(1 + 2 zeta).
-    const double slower = (1.0 + settings_.damping) * (1.0 + 2.0 * settings_.viscosity);
-    limit_ = stable_step(*motion_, moduli, fixed_, settings_.mass_scaling / slower);
-    motion_->set_viscosity(std::move(viscosity));
-    strained_ = 0.0;
+ExplicitSolver::Moduli ExplicitSolver::moduli() {
+    Moduli all(model_.materials.size());
+    for (std::size_t m = 0; m < all.size(); ++m)
+        if (model_.points[m].count() > 0)
+            evaluate_moduli(model_.materials[m], model_.points[m], view_of(model_.grid),
+                            motion_->deformation(static_cast<int>(m)), time_, all[m][0], all[m][1]);
+    return all;
 }
 
-void ExplicitSolver::impose_velocity() { // nodes that are not on a surface are free
-    for (int side = 0; side < 4; ++side)
-        for (const std::size_t n : boundaries_.surface(side).nodes())
-            for (int k = 0; k < 2; ++k)
-                if (fixed_.c[k][n] != 0.0) velocity_.c[k][n] = value_.c[k][n];
+bool ExplicitSolver::limit_is_stale() {
+    if (limit_ == 0.0 || strained_ > strain_between_limits || fixed_.count() != fixed_count_) return true;
+    if (strained_ - looked_ < strain_between_looks) return false;
+    looked_ = strained_;
+    const Moduli now = moduli();
+    for (std::size_t m = 0; m < now.size(); ++m)
+        if (largest(now[m][0]) > stiffer * stiffest_[m]) return true;
+    return false;
+}
+
+// A viscous stress acts with half a step's delay: the limit falls as if the stiffness were larger by 2 zeta.
+// Local damping adds up to its share to the forces that resist: it falls by sqrt(1 + alpha).
+void ExplicitSolver::refresh_limit(Moduli moduli) {
+    std::vector<std::array<double, 2>> viscosity(moduli.size());
+    stiffest_.assign(moduli.size(), 0.0);
+    for (std::size_t m = 0; m < moduli.size(); ++m) {
+        stiffest_[m] = largest(moduli[m][0]);
+        const double shear = largest(moduli[m][1]);
+        viscosity[m] = {settings_.viscosity * (stiffest_[m] - 2.0 * shear), settings_.viscosity * shear};
+        for (double& modulus : moduli[m][0])
+            modulus += 2.0 * settings_.viscosity * stiffest_[m];
+        for (double& modulus : moduli[m][1])
+            modulus += 2.0 * settings_.viscosity * shear;
+    }
+    boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_);
+    fixed_count_ = fixed_.count();
+    limit_ = stable_step(*motion_, moduli, fixed_, settings_.mass_scaling / (1.0 + settings_.damping));
+    motion_->set_viscosity(std::move(viscosity));
+    strained_ = looked_ = 0.0;
 }
 
 void ExplicitSolver::integrate(double dt, const VectorField& internal) {
@@ -82,47 +71,56 @@ void ExplicitSolver::integrate(double dt, const VectorField& internal) {
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = begin; n < end; ++n) {
                 if (mass[n] <= 0.0) continue;
-                const double inertia = mass[n] * settings_.mass_scaling;
-                const double force = internal.c[k][n] + traction_.c[k][n] + mass[n] * gravity_[k];
+                const double force = internal.c[k][n] + traction_.c[k][n] + weight(k, n);
                 const double v = velocity_before_.c[k][n];
                 if (fixed_.c[k][n] != 0.0) {
                     acceleration_.c[k][n] = (value_.c[k][n] - v) / dt;
-                    reaction_.c[k][n] = inertia * acceleration_.c[k][n] - force;
                     damping_.c[k][n] = 0.0;
                 } else { // Cundall's local damping opposes the velocity by a share of the force
-                    reaction_.c[k][n] = 0.0;
                     damping_.c[k][n] = v > 0.0   ? -alpha * std::abs(force)
                                        : v < 0.0 ? alpha * std::abs(force)
                                                  : 0.0;
-                    acceleration_.c[k][n] = (force + damping_.c[k][n]) / inertia;
+                    acceleration_.c[k][n] = (force + damping_.c[k][n]) / (mass[n] * settings_.mass_scaling);
                 }
             }
     });
 }
 
+// Work of the step by the trapezoidal rule (Belytschko, Liu, Moran 2000, Section 6.2.3).
 void ExplicitSolver::account(double dt) {
-    const Column& mass = motion_->mass();
     const VectorField& straining = motion_->stress_first() ? velocity_before_ : velocity_;
     motion_->each_row([&](int j, std::size_t begin, std::size_t end) {
-        Energies row;
+        RowWork row;
         for (int k = 0; k < 2; ++k)
             for (std::size_t n = begin; n < end; ++n) {
-                const double mean = 0.5 * (velocity_.c[k][n] + velocity_before_.c[k][n]);
-                row.internal -= 0.5 * dt * (internal_before_.c[k][n] + internal_.c[k][n]) * straining.c[k][n];
-                row.external += dt * ((traction_.c[k][n] + mass[n] * gravity_[k] + reaction_.c[k][n]) * mean);
-                row.damping += dt * damping_.c[k][n] * mean;
+                const double v = velocity_.c[k][n], way = dt * v;
+                const double mean_way = 0.5 * dt * (v + velocity_before_.c[k][n]);
+                const double inner = 0.5 * (internal_before_.c[k][n] + internal_.c[k][n]);
+                const double outer = 0.5 * (traction_before_.c[k][n] + traction_.c[k][n]) + weight(k, n);
+                if (fixed_.c[k][n] != 0.0) { // what holds the node does the rest
+                    row.external += inertia(k, n) * mean_way - inner * way;
+                } else {
+                    row.external += outer * way;
+                    row.power += (internal_.c[k][n] + traction_.c[k][n] + weight(k, n)) * v;
+                }
+                row.internal -= inner * dt * straining.c[k][n];
+                row.straining -= (inner - internal_initial_.c[k][n]) * dt * straining.c[k][n];
+                row.damping += damping_.c[k][n] * mean_way;
             }
-        energies_of_row_[static_cast<std::size_t>(j)] = row;
+        work_of_row_[static_cast<std::size_t>(j)] = row;
     });
-    for (const Energies& row : energies_of_row_) {
+    to_full_step_ = 0.0;
+    for (const RowWork& row : work_of_row_) {
         energies_.internal += row.internal;
+        energies_.straining += row.straining;
         energies_.external += row.external;
         energies_.damping += row.damping;
+        to_full_step_ += 0.5 * dt * row.power;
     }
 }
 
-void ExplicitSolver::step(double dt) {
-    boundaries_.load(*motion_, time_, dt, velocity_, traction_);
+bool ExplicitSolver::step(double dt) {
+    load_first();
     boundaries_.constrain(*motion_, time_ + dt, dt, fixed_, value_);
     std::swap(internal_, internal_before_);
     const Moment moment{time_ + dt, dt};
@@ -148,71 +146,19 @@ void ExplicitSolver::step(double dt) {
         motion_->deform(velocity_, moment);
         motion_->forces(internal_);
     }
+    time_ += dt;
+    std::swap(traction_, traction_before_);
+    load(dt);
     account(dt);
     strained_ += motion_->largest_strain();
-    time_ += dt;
     ++steps_;
+    return true;
 }
 
 Energies ExplicitSolver::energies() const {
     Energies e = energies_;
-    e.kinetic = settings_.mass_scaling * motion_->kinetic_energy();
+    e.kinetic = std::max(0.0, settings_.mass_scaling * motion_->kinetic_energy() + to_full_step_);
     return e;
-}
-
-double ExplicitSolver::largest_velocity() const {
-    double largest = 0.0;
-    for (std::size_t n = 0; n < velocity_.c[0].size(); ++n)
-        largest = std::max(largest, std::hypot(velocity_.c[0][n], velocity_.c[1][n]));
-    return largest;
-}
-
-const std::vector<std::string>& ExplicitSolver::measure_names() {
-    static const std::vector<std::string> names = {
-        "radius",       "initial_radius",  "area",           "initial_area",    "normal_force",
-        "displacement", "enclosed_volume", "kinetic_energy", "internal_energy", "external_work",
-        "damping_work", "energy_error",    "kinetic_ratio",  "largest_velocity"};
-    return names;
-}
-
-bool ExplicitSolver::measures_surface(const std::string& name) {
-    const auto& names = measure_names();
-    return std::find(names.begin(), names.end(), name) < names.begin() + 7;
-}
-
-// What the boundaries push with: loads, and the reactions at the present stress.
-double ExplicitSolver::normal_force(int side) const {
-    const int k = normal_axis(side);
-    const Column& mass = motion_->mass();
-    double total = 0.0;
-    for (const std::size_t n : boundaries_.surface(side).nodes()) {
-        const double force = fixed_.c[k][n] == 0.0
-                                 ? traction_.c[k][n]
-                                 : mass[n] * (settings_.mass_scaling * acceleration_.c[k][n] - gravity_[k]) -
-                                       internal_.c[k][n];
-        total -= outward(side) * force;
-    }
-    return total;
-}
-
-std::optional<double> ExplicitSolver::measure(const std::string& name, int side) {
-    if (name == "kinetic_energy") return energies().kinetic;
-    if (name == "internal_energy") return energies_.internal;
-    if (name == "external_work") return energies_.external;
-    if (name == "damping_work") return energies_.damping;
-    if (name == "energy_error") return energies().error();
-    if (name == "kinetic_ratio") return energies().ratio();
-    if (name == "largest_velocity") return largest_velocity();
-    if (name == "initial_radius") return initial_radius_[side];
-    if (name == "initial_area") return initial_area_[side];
-    Surface& surface = boundaries_.surface(side);
-    if (name == "normal_force") return normal_force(side);
-    surface.refresh(*motion_);
-    if (name == "radius") return surface.mean_radius();
-    if (name == "area") return surface.total_area();
-    if (name == "displacement") return surface.mean_displacement();
-    if (name == "enclosed_volume") return surface.enclosed_volume();
-    return std::nullopt;
 }
 
 } // namespace gault::core

@@ -1,64 +1,41 @@
 // The explicit solver: the paper's Section 2.2, step by step, over either motion.
 #pragma once
-#include "core/solver/boundaries.hpp"
-#include "core/solver/model.hpp"
-#include "core/solver/motion.hpp"
-#include "core/solver/stable_step.hpp"
-
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include "core/solver/solver.hpp"
 
 namespace gault::core {
 
-struct Energies { // J, since the start
-    double internal = 0.0, external = 0.0, damping = 0.0, kinetic = 0.0;
-    double ratio() const; // kinetic over internal, 0 before any work was done
-    double error() const; // |kinetic + internal - external - damping| over the largest of them
-};
-
-class ExplicitSolver {
+class ExplicitSolver final : public Solver {
   public:
     ExplicitSolver(const Scene& scene, Model& model, int threads);
 
-    double time() const { return time_; } // s
-    int64_t steps() const { return steps_; }
-    // The length that the next step may have: the factor of the scene times the true limit, found anew when
-    // the soil has been strained by another 2 %.
-    double allowed_step();
-    double stability_limit() const { return limit_; } // s
-    void step(double dt);                             // throws RunError
-
-    Motion& motion() { return *motion_; }
-    Boundaries& boundaries() { return boundaries_; }
-    Energies energies() const;
-    // A measure of gault.h's list, of a surface where it belongs to one. nullopt: no such measure.
-    std::optional<double> measure(const std::string& name, int side);
-    static const std::vector<std::string>& measure_names();
-    static bool measures_surface(const std::string& name);
-    double largest_velocity() const; // m/s, of the grid
+    // The factor of the scene times the true limit, which is found anew when the soil has been strained by
+    // another 2 %, has become stiffer by 5 %, or is held otherwise.
+    double allowed_step() override;
+    bool step(double dt) override;
+    double stability_limit() const override { return limit_; }
+    Energies energies() const override;
 
   private:
-    void refresh_limit();
+    using Moduli = std::vector<std::array<Column, 2>>; // P-wave and shear, by material
+    Moduli moduli();
+    bool limit_is_stale();
+    void refresh_limit(Moduli moduli);
     void integrate(double dt, const VectorField& internal); // forces to accelerations, on the grid (Eq. 9)
     void account(double dt);
-    double normal_force(int side) const;
-    void impose_velocity();
+    double inertia(int component, std::size_t node) const override {
+        return settings_.mass_scaling * motion_->mass()[node] * acceleration_.c[component][node];
+    }
 
-    const SolverSettings& settings_;
-    std::array<double, 2> gravity_;
-    Model& model_;
-    std::unique_ptr<Motion> motion_;
-    Boundaries boundaries_;
-    VectorField internal_, internal_before_, traction_, acceleration_, velocity_, velocity_before_, damping_,
-        reaction_, value_;
-    FixedField fixed_;
-    std::array<double, 4> initial_area_, initial_radius_;
-    Energies energies_;
-    std::vector<Energies> energies_of_row_; // of the last step
-    double time_ = 0.0, limit_ = 0.0, strained_ = 0.0;
-    int64_t steps_ = 0;
+    VectorField internal_initial_, internal_before_, traction_before_, acceleration_, velocity_before_,
+        damping_;
+    struct RowWork : Energies {
+        double power = 0.0; // of all forces, W
+    };
+    std::vector<RowWork> work_of_row_; // of the last step
+    double to_full_step_ = 0.0;        // what velocities half a step old lack of the kinetic energy, J
+    double limit_ = 0.0, strained_ = 0.0, looked_ = 0.0;
+    std::vector<double> stiffest_; // by material, Pa, where the limit was found
+    int fixed_count_ = 0;
 };
 
 } // namespace gault::core

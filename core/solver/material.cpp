@@ -254,8 +254,8 @@ namespace {
 
 // Calls the model on every batch with a zero increment and the present stress; `prepare` adds outputs.
 template <class Prepare, class Function>
-void call_at_rest(const Material& material, Points& points, const GridView& grid, Prepare prepare,
-                  Function function) {
+void call_at_rest(const Material& material, Points& points, const GridView& grid,
+                  const Deformation& deformation, double time, Prepare prepare, Function function) {
     std::size_t most = 0;
     for (const Batch& batch : points.layout().batches)
         most = std::max<std::size_t>(most, batch.pages * page_slots);
@@ -272,18 +272,19 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
             std::fill_n(view.strain[k], n, 0.0);
         for (int k = 0; k < 6; ++k)
             std::copy_n(columns.stress[k].data() + first, n, view.stress_old[k]);
-        if (view.volume_ratio) std::fill_n(view.volume_ratio, n, 1.0);
-        for (int k = 0; k < 5 && view.gradient_old[0]; ++k) {
-            std::fill_n(view.gradient_old[k], n, k == 0 || k > 2 ? 1.0 : 0.0);
-            std::fill_n(view.gradient_new[k], n, k == 0 || k > 2 ? 1.0 : 0.0);
+        for (std::size_t i = 0; i < n && (view.volume_ratio || view.gradient_old[0]); ++i) {
+            const std::array<double, 5> f = deformation(first + i);
+            if (view.volume_ratio) view.volume_ratio[i] = (f[0] * f[3] - f[1] * f[2]) * f[4];
+            for (int k = 0; k < 5 && view.gradient_old[0]; ++k)
+                view.gradient_old[k][i] = view.gradient_new[k][i] = f[k];
         }
         view.column = points.layout().page_column.data() + batch.first_page;
         view.cell_row = batch.cell_row;
-        Call whole(material, points, first, n, view, workspace, {0.0, 0.0});
+        Call whole(material, points, first, n, view, workspace, {time, 0.0});
         for (int k = 0; k < material.state_components(); ++k)
             std::copy_n(columns.state[k].data() + first, n, workspace.column(Workspace::state_old + k));
         fill_inputs(material, whole.p, view, workspace, n, grid);
-        prepare(whole.p, first, n, spare);
+        prepare(whole.p, first, spare);
         gault_error error{-1, 0, -1, ""};
         if (function(whole.p, error) != GAULT_OK)
             throw RunError(fmt::format("material '{}': {}", material.name(), bounded(error.text)));
@@ -292,20 +293,19 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
 
 } // namespace
 
-void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus,
-                     Column& shear) {
+void evaluate_moduli(const Material& material, Points& points, const GridView& grid,
+                     const Deformation& deformation, double time, Column& modulus, Column& shear) {
     modulus.resize(points.slots());
     shear.resize(points.slots());
     call_at_rest(
-        material, points, grid,
-        [&](gault_points& p, std::size_t first, std::size_t n, std::vector<Column>& spare) {
+        material, points, grid, deformation, time,
+        [&](gault_points& p, std::size_t first, std::vector<Column>& spare) {
             p.modulus = modulus.data() + first;
             p.shear_modulus = shear.data() + first;
             for (int k = 0; k < 6; ++k)
                 p.stress[k] = spare[k].data();
             for (int k = 0; k < material.state_components(); ++k)
                 p.state[k] = spare[6 + k].data();
-            (void)n;
         },
         [&](gault_points& p, gault_error& error) {
             return material.api().update(material.instance().self(), &p, &error);
@@ -319,7 +319,7 @@ void start_material(const Material& material, Points& points, const GridView& gr
                       points.columns().state[info.first + k].end(), info.declared.initial);
     if (!material.api().start) return;
     call_at_rest(
-        material, points, grid, [](gault_points&, std::size_t, std::size_t, std::vector<Column>&) {},
+        material, points, grid, undeformed, 0.0, [](gault_points&, std::size_t, std::vector<Column>&) {},
         [&](gault_points& p, gault_error& error) {
             return material.api().start(material.instance().self(), &p, &error);
         });

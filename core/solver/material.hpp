@@ -6,7 +6,7 @@
 #include "core/registry/instance.hpp"
 #include "core/transfer/kernels.hpp"
 
-#include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -92,10 +92,16 @@ UpdateFailure update_batch(const Material& material, Points& points, const Batch
                            const BatchView& view, Workspace& workspace, const Moment& moment,
                            const GridView& grid);
 
-// The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` have points.slots()
+// Deformation gradient of the point in a slot, xx xy yx yy zz.
+using Deformation = std::function<std::array<double, 5>(std::size_t)>;
+inline std::array<double, 5> undeformed(std::size_t) {
+    return {1.0, 0.0, 0.0, 1.0, 1.0};
+}
+
+// The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` get points.slots()
 // entries.
-void evaluate_moduli(const Material& material, Points& points, const GridView& grid, Column& modulus,
-                     Column& shear);
+void evaluate_moduli(const Material& material, Points& points, const GridView& grid,
+                     const Deformation& deformation, double time, Column& modulus, Column& shear);
 
 // Lets the model set its states from the initial stress. RunError when it is not admissible.
 void start_material(const Material& material, Points& points, const GridView& grid);

@@ -104,7 +104,7 @@ double Model::vertical_stress(const Scene& scene, int column, double y) const {
 std::function<SoilBehind(const std::array<double, 2>&)> Model::behind(const Scene& scene) {
     std::vector<std::array<Column, 2>> moduli(materials.size());
     for (std::size_t m = 0; m < moduli.size(); ++m)
-        evaluate_moduli(materials[m], points[m], view_of(grid), moduli[m][0], moduli[m][1]);
+        evaluate_moduli(materials[m], points[m], view_of(grid), undeformed, 0.0, moduli[m][0], moduli[m][1]);
     return [this, &scene, moduli = std::move(moduli)](const std::array<double, 2>& at) -> SoilBehind {
         const int column = grid.axis(0).cell_of(at[0]), row = grid.axis(1).cell_of(at[1]);
         const std::size_t cell = static_cast<std::size_t>(row) * grid.axis(0).cells() + column;
@@ -125,19 +125,23 @@ std::function<SoilBehind(const std::array<double, 2>&)> Model::behind(const Scen
 
 Model build_model(const Scene& scene) {
     const int degree = scene.basis == Basis::quadratic ? 2 : 1;
+    const bool radial = scene.symmetry == Symmetry::radial;
     const auto axis = [&](int k) {
         return Axis(Axis::graded(scene.geometry.lower[k], scene.geometry.upper[k], scene.axes[k].cells,
                                  scene.axes[k].ratio),
-                    degree);
+                    k == 1 && radial ? 0 : degree);
     };
-    Model model{Grid(axis(0), axis(1), scene.symmetry == Symmetry::axisymmetric), {}, {}, {}, {}};
+    Model model{Grid(axis(0), axis(1), scene.symmetry != Symmetry::plane_strain), {}, {}, {}, {}};
     const Grid& grid = model.grid;
     model.material_of_cell = assign_materials(scene, grid, model.description);
     for (const MaterialUse& use : scene.materials)
         model.materials.emplace_back(use);
 
+    const auto rule = [&](int n) {
+        return scene.placement == Placement::gauss ? gauss_rule(n) : uniform_rule(n);
+    };
     const int side = static_cast<int>(std::lround(std::sqrt(scene.points_per_cell)));
-    const Rule rule = scene.placement == Placement::gauss ? gauss_rule(side) : uniform_rule(side);
+    const Rule along_x = rule(radial ? scene.points_per_cell : side), along_y = rule(radial ? 1 : side);
     const bool updated = scene.frame == Frame::updated;
     std::vector<Seeds> seeds(scene.materials.size());
     uint32_t identity = 0;
@@ -147,16 +151,16 @@ Model build_model(const Scene& scene) {
             const int cell = row * columns + column, m = model.material_of_cell[cell];
             const double hx = grid.axis(0).length()[column], hy = grid.axis(1).length()[row];
             Seeds& s = seeds[m];
-            for (int b = 0; b < side; ++b)
-                for (int a = 0; a < side; ++a) {
-                    const double x = grid.axis(0).origin()[column] + rule.at[a] * hx;
-                    const double y = grid.axis(1).origin()[row] + rule.at[b] * hy;
-                    const double area = hx * hy * rule.weight[a] * rule.weight[b];
+            for (std::size_t b = 0; b < along_y.at.size(); ++b)
+                for (std::size_t a = 0; a < along_x.at.size(); ++a) {
+                    const double x = grid.axis(0).origin()[column] + along_x.at[a] * hx;
+                    const double y = grid.axis(1).origin()[row] + along_y.at[b] * hy;
+                    const double area = hx * hy * along_x.weight[a] * along_y.weight[b];
                     const double per_radius = grid.axisymmetric() ? 2.0 * std::numbers::pi * area : area;
                     const double volume = grid.axisymmetric() ? per_radius * x : area;
                     const double vertical = -model.vertical_stress(scene, column, y);
-                    s.columns.place[0].push_back(updated ? x : rule.at[a]);
-                    s.columns.place[1].push_back(updated ? y : rule.at[b]);
+                    s.columns.place[0].push_back(updated ? x : along_x.at[a]);
+                    s.columns.place[1].push_back(updated ? y : along_y.at[b]);
                     s.columns.measure.push_back(updated ? volume : per_radius);
                     for (int k = 0; k < 6; ++k)
                         s.columns.stress[k].push_back(k == 1  ? vertical
@@ -184,8 +188,9 @@ Model build_model(const Scene& scene) {
         if (updated && model.materials[m].finite_strain())
             for (int k = 0; k < 5; ++k)
                 s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
-        model.points.emplace_back(std::move(s.columns), s.cell, std::move(s.identity),
-                                  LayoutRequest{columns, grid.axis(1).cells(), degree, updated});
+        model.points.emplace_back(
+            std::move(s.columns), s.cell, std::move(s.identity),
+            LayoutRequest{columns, grid.axis(1).cells(), {grid.degree(0), grid.degree(1)}, updated});
         start_material(model.materials[m], model.points[m], view_of(grid));
     }
     return model;

@@ -10,7 +10,7 @@ namespace gault::core {
 
 Motion::Motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads)
     : grid_(grid), materials_(materials), points_(points),
-      kernels_(select_kernels(grid.degree(), grid.axisymmetric())), team_(threads) {
+      kernels_(select_kernels({grid.degree(0), grid.degree(1), grid.axisymmetric()})), team_(threads) {
     plan();
 }
 
@@ -25,7 +25,7 @@ void Motion::plan() {
         for (int b = 0; b < static_cast<int>(batches.size()); ++b) {
             tasks_of_row_[batches[b].cell_row].push_back(static_cast<int>(tasks_.size()));
             tasks_.push_back({m, b, patch});
-            patch += round_up(3 * static_cast<std::size_t>(batches[b].patch_row) * (grid_.degree() + 1), 8);
+            patch += round_up(3 * static_cast<std::size_t>(batches[b].patch_row) * (grid_.degree(1) + 1), 8);
             most = std::max<std::size_t>(most, static_cast<std::size_t>(batches[b].capacity) * page_slots);
         }
     }
@@ -96,12 +96,12 @@ UpdateFailure Motion::update_stress(const Task& task, const BatchView& view, Wor
 void Motion::clear_patch(const Task& task, int components) {
     const Batch& batch = points_[task.material].layout().batches[task.batch];
     std::fill_n(patches_.data() + task.patch,
-                static_cast<std::size_t>(components) * batch.patch_row * (grid_.degree() + 1), 0.0);
+                static_cast<std::size_t>(components) * batch.patch_row * (grid_.degree(1) + 1), 0.0);
 }
 
 void Motion::reduce(const std::vector<Column*>& fields) {
     const NodeLayout& layout = grid_.layout();
-    const int degree = grid_.degree(), cell_rows = grid_.axis(1).cells();
+    const int degree = grid_.degree(1), cell_rows = grid_.axis(1).cells();
     each_row([&](int j, std::size_t begin, std::size_t) {
         for (Column* field : fields)
             std::fill_n(field->data() + begin, layout.row, 0.0);
@@ -157,7 +157,7 @@ void Motion::settle(const std::vector<Outcome>& outcomes) {
         if (strain.bad >= 0) {
             const std::size_t slot = static_cast<std::size_t>(batch.first_page) * page_slots +
                                      static_cast<std::size_t>(strain.bad);
-            throw RunError(fmt::format(
+            throw InstabilityError(fmt::format(
                 "the run became unstable: {} would be strained by more than {} in one step, or turned "
                 "inside out",
                 where(task.material, slot), strain_limit));

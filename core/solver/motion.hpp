@@ -77,6 +77,8 @@ class Motion {
 
     virtual double kinetic_energy() = 0; // J, of the points, with mass scaling left out
     virtual PointRecord record(int material, std::size_t slot) const = 0;
+    virtual Deformation deformation(int material) const = 0; // in the updated frame only det F is right,
+                                                             // unless the material wants F
 
     // Viscous moduli (lame, shear; Pa) of every material: stress of the step's strain that resists in the
     // forces only.

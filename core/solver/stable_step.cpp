@@ -59,6 +59,7 @@ double stable_step(Motion& motion, const std::vector<std::array<Column, 2>>& mod
     constexpr int most = 200, check = 5;
     motion.consistent_mass(q, product);
     double norm = std::sqrt(dot(q, product));
+    if (norm == 0.0) return stable_step(motion, moduli, FixedField(layout), mass_scaling); // nothing is free
     for (int k = 0; k < most && norm > 0.0; ++k) {
         scale(q, 1.0 / norm);
         scale(product, 1.0 / norm);

@@ -4,14 +4,35 @@
 
 namespace gault::core {
 
-// Where a node's component is prescribed: 1, else 0.
-using FixedField = VectorField;
+// Which components of which nodes are prescribed: 0 where free, else a bit for each side that holds it.
+class FixedField : public VectorField {
+  public:
+    using VectorField::VectorField;
+    static constexpr int symmetry = 4; // beside the four sides
+
+    void release() {
+        clear();
+        count_ = 0;
+    }
+    void hold(int side, int component, std::size_t node) {
+        double& bits = c[component][node];
+        if (bits == 0.0) ++count_;
+        bits = static_cast<int>(bits) | 1 << side;
+    }
+    bool held_by(int side, int component, std::size_t node) const {
+        return static_cast<int>(c[component][node]) >> side & 1;
+    }
+    int count() const { return count_; } // of prescribed components
+
+  private:
+    int count_ = 0;
+};
 
 // 2 / omega_max, s, of the linearised system that the explicit scheme integrates: w' = -M^-1 K v, v = M^-1 C
 // w with lumped mass M and consistent mass C (the map of point velocities onto the grid damps short waves, so
 // the limit lies above h/c). omega_max^2 is the largest eigenvalue, by Lanczos iteration in the inner product
 // of C, to about 0.1 %. `moduli`: P-wave and shear modulus of every slot of every material, Pa.
-// `mass_scaling` multiplies the mass.
+// `mass_scaling` multiplies the mass. Where nothing is free, the limit as if all were.
 double stable_step(Motion& motion, const std::vector<std::array<Column, 2>>& moduli, const FixedField& fixed,
                    double mass_scaling);
 

@@ -25,6 +25,7 @@ Surface::Surface(const Motion& motion, int side) : side_(side), axisymmetric_(mo
             const Axis::Weights w = along.weights(cell, xi);
             f.functions = along.degree() + 1;
             f.weight = weight;
+            f.length = along.degree() == 0 ? along.length()[cell] : 0.0;
             for (int a = 0; a < f.functions; ++a) {
                 f.ij[a] = grid.side_node(side, cell + a);
                 f.node[a] = grid.layout().index(f.ij[a][0], f.ij[a][1]);
@@ -44,7 +45,7 @@ void Surface::refresh(const Motion& motion) {
     configuration_ = motion.configuration();
     for (std::size_t q = 0; q < facets_.size(); ++q) {
         const Facet& f = facets_[q];
-        std::array<double, 2> x{}, tangent{};
+        std::array<double, 2> x{}, tangent{0.0, f.length};
         for (int a = 0; a < f.functions; ++a)
             for (int k = 0; k < 2; ++k) {
                 const double at = motion.node_position(f.ij[a][0], f.ij[a][1], k);
@@ -83,11 +84,11 @@ double Surface::mean_radius() const {
     return total / length;
 }
 
-double Surface::total_area() const {
+double Surface::projected_area() const {
     double total = 0.0;
     for (const Now& now : at_)
-        total += std::sqrt(now.area[0] * now.area[0] + now.area[1] * now.area[1]);
-    return total;
+        total += now.area[normal_axis(side_)];
+    return std::abs(total);
 }
 
 double Surface::mean_displacement() const {

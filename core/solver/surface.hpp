@@ -30,7 +30,7 @@ class Surface {
 
     // Measures, from the last refresh.
     double mean_radius() const;       // m, over the length
-    double total_area() const;        // m^2
+    double projected_area() const;    // m^2, across the surface's axis
     double mean_displacement() const; // m, into the soil
     double enclosed_volume() const;   // m^3, between the axis and the surface
 
@@ -41,6 +41,7 @@ class Surface {
         std::array<double, 3> value{}, slope{}; // N and dN/dxi, xi in [0, 1] along the cell
         int functions = 0;
         double weight = 0.0;
+        double length = 0.0; // along an axis of degree 0, whose one function has no slope
     };
     struct Now {
         std::array<double, 2> position, area;

@@ -58,6 +58,7 @@ class TotalMotion final : public Motion {
     }
 
     PointRecord record(int material, std::size_t slot) const override;
+    Deformation deformation(int material) const override;
 
   private:
     template <class F>
@@ -76,7 +77,8 @@ class TotalMotion final : public Motion {
             for (std::size_t c = 0; c < stencil_.size(); ++c)
                 coefficient[c] = stencil_[c].data() + begin;
             for (int k = 0; k < 2; ++k) {
-                kernels_.stencil(coefficient, grid_.layout().row, w.c[k].data() + begin, out.c[k].data() + begin);
+                kernels_.stencil(coefficient, grid_.layout().row, w.c[k].data() + begin,
+                                 out.c[k].data() + begin);
                 for (std::size_t n = begin; n < end; ++n)
                     finish(k, n);
             }
@@ -101,7 +103,7 @@ class TotalMotion final : public Motion {
 
     VectorField displacement_, flip_; // of the nodes: u, and w above
     Column mass_, inverse_mass_;
-    std::vector<Column> stencil_; // consistent mass: (2 degree + 1)^2 coefficients a node
+    std::vector<Column> stencil_; // consistent mass: (2 degree + 1) coefficients a node, along each axis
     VectorField zero_;
     bool first_forces_;
 };
@@ -125,27 +127,24 @@ TotalMotion::Basis2 TotalMotion::basis(int material, std::size_t slot) const {
 }
 
 void TotalMotion::assemble_mass() {
-    const int degree = grid_.degree(), reach = 2 * degree + 1;
+    const int dx = grid_.degree(0), dy = grid_.degree(1), reach = 2 * dx + 1;
     const NodeLayout& layout = grid_.layout();
-    stencil_.assign(static_cast<std::size_t>(reach * reach), Column(layout.size));
+    stencil_.assign(static_cast<std::size_t>(reach * (2 * dy + 1)), Column(layout.size));
     for (int m = 0; m < static_cast<int>(points_.size()); ++m)
         points_[m].each_point([&](std::size_t slot) {
             const Basis2 at = basis(m, slot);
             const double r = grid_.axisymmetric() ? at.reference[0] : 1.0;
             const double point_mass = materials_[m].density() * points_[m].columns().measure[slot] * r;
-            double value[9];
-            for (int b = 0; b <= degree; ++b)
-                for (int a = 0; a <= degree; ++a)
-                    value[b * 3 + a] = at.x.value[a] * at.y.value[b];
-            for (int b = 0; b <= degree; ++b)
-                for (int a = 0; a <= degree; ++a) {
+            const auto value = [&](int a, int b) { return at.x.value[a] * at.y.value[b]; };
+            for (int b = 0; b <= dy; ++b)
+                for (int a = 0; a <= dx; ++a) {
                     const std::size_t n = layout.index(at.i + a, at.j + b);
-                    const double share = point_mass * value[b * 3 + a];
+                    const double share = point_mass * value(a, b);
                     mass_[n] += share;
-                    for (int d = 0; d <= degree; ++d)
-                        for (int c = 0; c <= degree; ++c)
-                            stencil_[static_cast<std::size_t>((d - b + degree) * reach + c - a + degree)]
-                                    [n] += share * value[d * 3 + c];
+                    for (int d = 0; d <= dy; ++d)
+                        for (int c = 0; c <= dx; ++c)
+                            stencil_[static_cast<std::size_t>((d - b + dy) * reach + c - a + dx)][n] +=
+                                share * value(c, d);
                 }
         });
     inverse_mass_.resize(mass_.size());
@@ -191,23 +190,39 @@ void TotalMotion::stiffness(const VectorField& v, const std::vector<std::array<C
     reduce({&out.c[0], &out.c[1]});
 }
 
+Deformation TotalMotion::deformation(int material) const {
+    return [this, material](std::size_t slot) -> std::array<double, 5> {
+        const Basis2 at = basis(material, slot);
+        std::array<double, 5> f = undeformed(slot);
+        double radial = 0.0;
+        for (int b = 0; b <= grid_.degree(1); ++b)
+            for (int a = 0; a <= grid_.degree(0); ++a) {
+                const std::size_t n = grid_.layout().index(at.i + a, at.j + b);
+                for (int k = 0; k < 2; ++k) {
+                    f[2 * k] += at.x.slope[a] * at.y.value[b] * displacement_.c[k][n];
+                    f[2 * k + 1] += at.x.value[a] * at.y.slope[b] * displacement_.c[k][n];
+                }
+                radial += at.x.value[a] * at.y.value[b] * displacement_.c[0][n];
+            }
+        if (grid_.axisymmetric()) f[4] += radial / at.reference[0];
+        return f;
+    };
+}
+
 PointRecord TotalMotion::record(int material, std::size_t slot) const {
     const Basis2 at = basis(material, slot);
     PointRecord r{at.reference, at.reference, {0.0, 0.0}, points_[material].columns().measure[slot]};
-    double f[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
-    for (int b = 0; b <= grid_.degree(); ++b)
-        for (int a = 0; a <= grid_.degree(); ++a) {
+    for (int b = 0; b <= grid_.degree(1); ++b)
+        for (int a = 0; a <= grid_.degree(0); ++a) {
             const std::size_t n = grid_.layout().index(at.i + a, at.j + b);
             const double value = at.x.value[a] * at.y.value[b];
             for (int k = 0; k < 2; ++k) {
-                const double u = displacement_.c[k][n];
-                r.position[k] += value * u;
+                r.position[k] += value * displacement_.c[k][n];
                 r.velocity[k] += value * flip_.c[k][n];
-                f[k][0] += at.x.slope[a] * at.y.value[b] * u;
-                f[k][1] += at.x.value[a] * at.y.slope[b] * u;
             }
         }
-    r.volume *= f[0][0] * f[1][1] - f[0][1] * f[1][0];
+    const std::array<double, 5> f = deformation(material)(slot);
+    r.volume *= f[0] * f[3] - f[1] * f[2];
     if (grid_.axisymmetric()) r.volume *= r.position[0];
     return r;
 }

@@ -78,6 +78,18 @@ class UpdatedMotion final : public Motion {
                 c.measure[slot]};
     }
 
+    Deformation deformation(int material) const override {
+        return [&c = points_[material].columns(),
+                density = materials_[material].density()](std::size_t s) -> std::array<double, 5> {
+            if (c.deformation[0].empty())
+                return {1.0, 0.0, 0.0, 1.0, c.mass[s] > 0.0 ? c.measure[s] * density / c.mass[s] : 1.0};
+            std::array<double, 5> f;
+            for (int k = 0; k < 5; ++k)
+                f[k] = c.deformation[k][s];
+            return f;
+        };
+    }
+
   private:
     template <class F>
     void each_batch(int components, double& phase, F f) {
@@ -99,7 +111,7 @@ class UpdatedMotion final : public Motion {
     void resettle();
 
     bool stress_first_;
-    Column mass_, mapped_mass_; // of the nodes at the last forces, and at the last mapping
+    Column mass_, mapped_mass_;                 // of the nodes at the last forces, and at the last mapping
     std::array<std::array<double, 2>, 2> ends_; // of the axes, m
     std::array<std::vector<double>, 4> bend_;   // how far each wall node has left the straight wall, m
 };
@@ -212,7 +224,7 @@ void UpdatedMotion::resettle() {
                 const double outside =
                     std::max(grid_.axis(k).lower() - (k ? y : x), (k ? y : x) - grid_.axis(k).upper());
                 if (outside > 0.5 * grid_.axis(k).length()[k ? row : column])
-                    throw RunError(fmt::format("{} left the grid", where(task.material, slot)));
+                    throw InstabilityError(fmt::format("{} left the grid", where(task.material, slot)));
             }
             if (cell != now) moves[task.material].push_back({slot, cell});
         }

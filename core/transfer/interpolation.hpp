@@ -20,7 +20,10 @@ template <int Degree>
 GAULT_INLINE Weights<Degree> weights(const AxisView& axis, int cell, Pack xi) {
     const Pack a = Pack(1.0) - xi, per_length = axis.inverse_length[cell];
     Weights<Degree> w;
-    if constexpr (Degree == 1) {
+    if constexpr (Degree == 0) {
+        w.value[0] = 1.0;
+        w.slope[0] = 0.0;
+    } else if constexpr (Degree == 1) {
         w.value[0] = a;
         w.value[1] = xi;
         w.slope[0] = -per_length;
@@ -42,13 +45,13 @@ struct Gathered {
 };
 
 // sum_ab N_a(x) N_b(y) f_ab and its gradient, one axis after the other.
-template <int Degree>
-GAULT_INLINE Gathered gather(const double* f, std::ptrdiff_t row, const Weights<Degree>& x,
-                             const Weights<Degree>& y) {
+template <int DX, int DY>
+GAULT_INLINE Gathered gather(const double* f, std::ptrdiff_t row, const Weights<DX>& x,
+                             const Weights<DY>& y) {
     Gathered g{0.0, 0.0, 0.0};
-    for (int b = 0; b <= Degree; ++b, f += row) {
+    for (int b = 0; b <= DY; ++b, f += row) {
         Pack s = x.value[0] * Pack(f[0]), d = x.slope[0] * Pack(f[0]);
-        for (int a = 1; a <= Degree; ++a) {
+        for (int a = 1; a <= DX; ++a) {
             s += x.value[a] * Pack(f[a]);
             d += x.slope[a] * Pack(f[a]);
         }
@@ -59,13 +62,13 @@ GAULT_INLINE Gathered gather(const double* f, std::ptrdiff_t row, const Weights<
     return g;
 }
 
-template <int Degree>
-GAULT_INLINE Pack gather_value(const double* f, std::ptrdiff_t row, const Weights<Degree>& x,
-                               const Weights<Degree>& y) {
+template <int DX, int DY>
+GAULT_INLINE Pack gather_value(const double* f, std::ptrdiff_t row, const Weights<DX>& x,
+                               const Weights<DY>& y) {
     Pack g = 0.0;
-    for (int b = 0; b <= Degree; ++b, f += row) {
+    for (int b = 0; b <= DY; ++b, f += row) {
         Pack s = x.value[0] * Pack(f[0]);
-        for (int a = 1; a <= Degree; ++a)
+        for (int a = 1; a <= DX; ++a)
             s += x.value[a] * Pack(f[a]);
         g += y.value[b] * s;
     }
@@ -73,10 +76,9 @@ GAULT_INLINE Pack gather_value(const double* f, std::ptrdiff_t row, const Weight
 }
 
 // Sums of a cell's nodes over the points of the pages that follow one another in that cell.
-template <int Degree, int Components>
+template <int DX, int DY, int Components>
 struct Accumulator {
-    static constexpr int n = Degree + 1;
-    Pack sums[Components][n][n];
+    Pack sums[Components][DY + 1][DX + 1];
 
     GAULT_INLINE void clear() {
         for (auto& component : sums)
@@ -88,7 +90,7 @@ struct Accumulator {
         double* at = batch.patch + (column - batch.first_column);
         for (auto& component : sums)
             for (auto& row : component) {
-                for (int a = 0; a < n; ++a)
+                for (int a = 0; a <= DX; ++a)
                     at[a] += sum(row[a]);
                 at += batch.patch_row;
             }
@@ -96,9 +98,9 @@ struct Accumulator {
     }
 };
 
-template <int Degree, int Components, class Page>
+template <int DX, int DY, int Components, class Page>
 GAULT_INLINE void scatter_pages(const BatchView& batch, Page page) {
-    Accumulator<Degree, Components> nodes;
+    Accumulator<DX, DY, Components> nodes;
     nodes.clear();
     for (int p = 0; p < batch.pages; ++p) {
         for (int slot = p * page_slots; slot < (p + 1) * page_slots; slot += pack_lanes)

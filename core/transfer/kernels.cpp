@@ -78,7 +78,7 @@ GAULT_INLINE void store5(double* const* to, int slot, Pack a, Pack b, Pack c, Pa
     e.store(to[4] + slot);
 }
 
-template <int Degree, bool Axisymmetric>
+template <int DX, int DY, bool Axisymmetric>
 StrainReport total_strain(const GridView& grid, const BatchView& batch, const StrainInput& in) {
     Watch watch;
     const Pack dt = in.dt, limit = in.limit, one = 1.0;
@@ -87,12 +87,12 @@ StrainReport total_strain(const GridView& grid, const BatchView& batch, const St
         const std::ptrdiff_t node = batch.node + column;
         for (int slot = p * page_slots; slot < (p + 1) * page_slots; slot += pack_lanes) {
             const Pack xi = Pack::load(batch.place[0] + slot);
-            const auto wx = weights<Degree>(grid.x, column, xi);
-            const auto wy = weights<Degree>(grid.y, batch.cell_row, Pack::load(batch.place[1] + slot));
-            const Gathered vx = gather<Degree>(in.velocity[0] + node, grid.row, wx, wy);
-            const Gathered vy = gather<Degree>(in.velocity[1] + node, grid.row, wx, wy);
-            const Gathered ux = gather<Degree>(in.displacement_old[0] + node, grid.row, wx, wy);
-            const Gathered uy = gather<Degree>(in.displacement_old[1] + node, grid.row, wx, wy);
+            const auto wx = weights<DX>(grid.x, column, xi);
+            const auto wy = weights<DY>(grid.y, batch.cell_row, Pack::load(batch.place[1] + slot));
+            const Gathered vx = gather(in.velocity[0] + node, grid.row, wx, wy);
+            const Gathered vy = gather(in.velocity[1] + node, grid.row, wx, wy);
+            const Gathered ux = gather(in.displacement_old[0] + node, grid.row, wx, wy);
+            const Gathered uy = gather(in.displacement_old[1] + node, grid.row, wx, wy);
             const Pack hxx = dt * vx.dx, hxy = dt * vx.dy, hyx = dt * vy.dx, hyy = dt * vy.dy;
             const Pack fxx = one + ux.dx, fxy = ux.dy, fyx = uy.dx,
                        fyy = one + uy.dy; // at the start of the step
@@ -148,11 +148,11 @@ GAULT_INLINE PlaneStress acting_stress(const BatchView& batch, int slot) {
 }
 
 // f = - integral of P : grad N over the reference volume, with P V0 = stress . flux (Nanson's formula).
-template <int Degree, bool Axisymmetric>
+template <int DX, int DY, bool Axisymmetric>
 void total_force(const GridView& grid, const BatchView& batch) {
-    scatter_pages<Degree, 2>(batch, [&](auto& nodes, int slot, int column) GAULT_INLINE_LAMBDA {
-        const auto wx = weights<Degree>(grid.x, column, Pack::load(batch.place[0] + slot));
-        const auto wy = weights<Degree>(grid.y, batch.cell_row, Pack::load(batch.place[1] + slot));
+    scatter_pages<DX, DY, 2>(batch, [&](auto& nodes, int slot, int column) GAULT_INLINE_LAMBDA {
+        const auto wx = weights<DX>(grid.x, column, Pack::load(batch.place[0] + slot));
+        const auto wy = weights<DY>(grid.y, batch.cell_row, Pack::load(batch.place[1] + slot));
         const auto [sxx, syy, szz, sxy] = acting_stress(batch, slot);
         const Pack axx = Pack::load(batch.flux[0] + slot), axy = Pack::load(batch.flux[1] + slot);
         const Pack ayx = Pack::load(batch.flux[2] + slot), ayy = Pack::load(batch.flux[3] + slot);
@@ -160,11 +160,11 @@ void total_force(const GridView& grid, const BatchView& batch) {
         const Pack pyx = sxy * axx + syy * ayx, pyy = sxy * axy + syy * ayy;
         Pack hoop = 0.0;
         if constexpr (Axisymmetric) hoop = szz * Pack::load(batch.flux[4] + slot);
-        for (int a = 0; a <= Degree; ++a) {
+        for (int a = 0; a <= DX; ++a) {
             Pack xs = pxx * wx.slope[a], xv = pxy * wx.value[a];
             const Pack ys = pyx * wx.slope[a], yv = pyy * wx.value[a];
             if constexpr (Axisymmetric) xs += hoop * wx.value[a];
-            for (int b = 0; b <= Degree; ++b) {
+            for (int b = 0; b <= DY; ++b) {
                 nodes.sums[0][b][a] -= wy.value[b] * xs + wy.slope[b] * xv;
                 nodes.sums[1][b][a] -= wy.value[b] * ys + wy.slope[b] * yv;
             }
@@ -182,7 +182,7 @@ GAULT_INLINE Place place(const GridView& grid, const BatchView& batch, int slot,
             (y - Pack(grid.y.origin[batch.cell_row])) * Pack(grid.y.inverse_length[batch.cell_row])};
 }
 
-template <int Degree, bool Axisymmetric>
+template <int DX, int DY, bool Axisymmetric>
 StrainReport updated_strain(const GridView& grid, const BatchView& batch, const StrainInput& in, bool commit,
                             bool move) {
     Watch watch;
@@ -192,10 +192,10 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
         const std::ptrdiff_t node = batch.node + column;
         for (int slot = p * page_slots; slot < (p + 1) * page_slots; slot += pack_lanes) {
             const Place at = place(grid, batch, slot, column);
-            const auto wx = weights<Degree>(grid.x, column, at.xi);
-            const auto wy = weights<Degree>(grid.y, batch.cell_row, at.eta);
-            const Gathered vx = gather<Degree>(in.velocity[0] + node, grid.row, wx, wy);
-            const Gathered vy = gather<Degree>(in.velocity[1] + node, grid.row, wx, wy);
+            const auto wx = weights<DX>(grid.x, column, at.xi);
+            const auto wy = weights<DY>(grid.y, batch.cell_row, at.eta);
+            const Gathered vx = gather(in.velocity[0] + node, grid.row, wx, wy);
+            const Gathered vy = gather(in.velocity[1] + node, grid.row, wx, wy);
             const Pack volume = Pack::load(batch.measure + slot);
             const Pack live = select(volume > Pack(0.0), one, 0.0),
                        step = dt * live; // an empty slot keeps what it has
@@ -236,23 +236,23 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
 }
 
 // Eq. 5 and 7; the hoop term is N / r.
-template <int Degree, bool Axisymmetric>
+template <int DX, int DY, bool Axisymmetric>
 void updated_force(const GridView& grid, const BatchView& batch) {
-    scatter_pages<Degree, 3>(batch, [&](auto& nodes, int slot, int column) GAULT_INLINE_LAMBDA {
+    scatter_pages<DX, DY, 3>(batch, [&](auto& nodes, int slot, int column) GAULT_INLINE_LAMBDA {
         const Place at = place(grid, batch, slot, column);
-        const auto wx = weights<Degree>(grid.x, column, at.xi);
-        const auto wy = weights<Degree>(grid.y, batch.cell_row, at.eta);
+        const auto wx = weights<DX>(grid.x, column, at.xi);
+        const auto wy = weights<DY>(grid.y, batch.cell_row, at.eta);
         const Pack volume = Pack::load(batch.measure + slot), mass = Pack::load(batch.mass + slot);
         const PlaneStress s = acting_stress(batch, slot);
         const Pack sxx = volume * s.xx, syy = volume * s.yy, sxy = volume * s.xy;
         Pack hoop = 0.0;
         if constexpr (Axisymmetric) hoop = volume * s.zz / at.x;
-        for (int a = 0; a <= Degree; ++a) {
+        for (int a = 0; a <= DX; ++a) {
             Pack xs = sxx * wx.slope[a];
             const Pack xv = sxy * wx.value[a], ys = sxy * wx.slope[a], yv = syy * wx.value[a],
                        m = mass * wx.value[a];
             if constexpr (Axisymmetric) xs += hoop * wx.value[a];
-            for (int b = 0; b <= Degree; ++b) {
+            for (int b = 0; b <= DY; ++b) {
                 nodes.sums[0][b][a] -= wy.value[b] * xs + wy.slope[b] * xv;
                 nodes.sums[1][b][a] -= wy.value[b] * ys + wy.slope[b] * yv;
                 nodes.sums[2][b][a] += wy.value[b] * m;
@@ -262,7 +262,7 @@ void updated_force(const GridView& grid, const BatchView& batch) {
 }
 
 // Eq. 10, then Eq. 5 and 6 with the updated point velocities (the MUSL re-mapping).
-template <int Degree>
+template <int DX, int DY>
 void updated_velocity(const GridView& grid, const BatchView& batch, double step,
                       const double* const acceleration[2], const double* const velocity[2], bool scatter) {
     const Pack dt = step;
@@ -271,30 +271,30 @@ void updated_velocity(const GridView& grid, const BatchView& batch, double step,
         const std::ptrdiff_t node = batch.node + column;
         for (int slot = p * page_slots; slot < (p + 1) * page_slots; slot += pack_lanes) {
             const Place at = place(grid, batch, slot, column);
-            const auto wx = weights<Degree>(grid.x, column, at.xi);
-            const auto wy = weights<Degree>(grid.y, batch.cell_row, at.eta);
+            const auto wx = weights<DX>(grid.x, column, at.xi);
+            const auto wy = weights<DY>(grid.y, batch.cell_row, at.eta);
             const Pack live = select(Pack::load(batch.measure + slot) > Pack(0.0), dt, 0.0);
             for (int k = 0; k < 2; ++k) {
                 if (acceleration)
                     (Pack::load(batch.velocity[k] + slot) +
-                     live * gather_value<Degree>(acceleration[k] + node, grid.row, wx, wy))
+                     live * gather_value(acceleration[k] + node, grid.row, wx, wy))
                         .store(batch.velocity[k] + slot);
                 if (velocity)
-                    ((k ? at.y : at.x) + live * gather_value<Degree>(velocity[k] + node, grid.row, wx, wy))
+                    ((k ? at.y : at.x) + live * gather_value(velocity[k] + node, grid.row, wx, wy))
                         .store(batch.place[k] + slot);
             }
         }
     }
     if (!scatter) return;
-    scatter_pages<Degree, 3>(batch, [&](auto& nodes, int slot, int column) GAULT_INLINE_LAMBDA {
+    scatter_pages<DX, DY, 3>(batch, [&](auto& nodes, int slot, int column) GAULT_INLINE_LAMBDA {
         const Place at = place(grid, batch, slot, column);
-        const auto wx = weights<Degree>(grid.x, column, at.xi);
-        const auto wy = weights<Degree>(grid.y, batch.cell_row, at.eta);
+        const auto wx = weights<DX>(grid.x, column, at.xi);
+        const auto wy = weights<DY>(grid.y, batch.cell_row, at.eta);
         const Pack mass = Pack::load(batch.mass + slot);
         const Pack mx = mass * Pack::load(batch.velocity[0] + slot),
                    my = mass * Pack::load(batch.velocity[1] + slot);
-        for (int a = 0; a <= Degree; ++a)
-            for (int b = 0; b <= Degree; ++b) {
+        for (int a = 0; a <= DX; ++a)
+            for (int b = 0; b <= DY; ++b) {
                 const Pack n = wx.value[a] * wy.value[b];
                 nodes.sums[0][b][a] += n * mx;
                 nodes.sums[1][b][a] += n * my;
@@ -321,38 +321,40 @@ int64_t leavers(const GridView& grid, const BatchView& batch, int64_t* slots, in
     return found;
 }
 
-template <int Degree>
+template <int DX, int DY>
 void stencil(const double* const* coefficient, std::ptrdiff_t row, const double* in, double* out) {
     for (std::ptrdiff_t i = 0; i < row; i += pack_lanes) {
         Pack total = 0.0;
         const double* const* c = coefficient;
-        for (int b = -Degree; b <= Degree; ++b)
-            for (int a = -Degree; a <= Degree; ++a, ++c)
+        for (int b = -DY; b <= DY; ++b)
+            for (int a = -DX; a <= DX; ++a, ++c)
                 total += Pack::load(*c + i) * Pack::load_unaligned(in + i + b * row + a);
         total.store(out + i);
     }
 }
 
-template <int Degree, bool Axisymmetric>
+template <int DX, int DY, bool Axisymmetric>
 constexpr Kernels table(const char* isa) {
     return {isa,
-            total_strain<Degree, Axisymmetric>,
-            total_force<Degree, Axisymmetric>,
-            updated_strain<Degree, Axisymmetric>,
-            updated_force<Degree, Axisymmetric>,
-            updated_velocity<Degree>,
+            total_strain<DX, DY, Axisymmetric>,
+            total_force<DX, DY, Axisymmetric>,
+            updated_strain<DX, DY, Axisymmetric>,
+            updated_force<DX, DY, Axisymmetric>,
+            updated_velocity<DX, DY>,
             leavers,
-            stencil<Degree>};
+            stencil<DX, DY>};
 }
 
 } // namespace
 
 constexpr const char* isa = pack_lanes == 8 ? "x86-64-v4" : pack_lanes == 4 ? "x86-64-v3" : "baseline";
 
-const Kernels* kernels(int degree, bool axisymmetric) {
-    static constexpr Kernels tables[2][2] = {{table<1, false>(isa), table<1, true>(isa)},
-                                             {table<2, false>(isa), table<2, true>(isa)}};
-    return &tables[degree - 1][axisymmetric];
+const Kernels* kernels(const KernelChoice& choice) {
+    static constexpr Kernels plane[2] = {table<1, 1, false>(isa), table<2, 2, false>(isa)};
+    static constexpr Kernels ring[2] = {table<1, 1, true>(isa), table<2, 2, true>(isa)};
+    static constexpr Kernels radial[2] = {table<1, 0, true>(isa), table<2, 0, true>(isa)};
+    const auto& tables = choice.degree_y == 0 ? radial : choice.axisymmetric ? ring : plane;
+    return &tables[choice.degree_x - 1];
 }
 
 } // namespace gault::core::GAULT_ISA

@@ -3,8 +3,9 @@
 // program starts.
 //
 // A batch is a run of pages of eight slots; the points of a page share one grid cell, and the cells of a
-// batch lie in one row of cells. Every kernel adds into the batch's own patch of nodes, (columns + degree) x
-// (degree + 1) of them, which the caller sums in a fixed order: the same bits for every number of threads.
+// batch lie in one row of cells. Every kernel adds into the batch's own patch of nodes, (columns + degree_x)
+// x (degree_y + 1) of them, which the caller sums in a fixed order: the same bits for every number of
+// threads.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -84,12 +85,17 @@ struct Kernels {
                              bool scatter);
     // Slots that left their cell: writes at most `capacity` indices, returns how many there are.
     int64_t (*leavers)(const GridView&, const BatchView&, int64_t* slots, int64_t capacity);
-    // One row of a field, margin included: out[n] = sum over the (2 degree + 1)^2 neighbours of coefficient *
-    // in.
+    // One row of a field, margin included: out[n] = sum of coefficient * in over the (2 degree_x + 1) x
+    // (2 degree_y + 1) neighbours.
     void (*stencil)(const double* const* coefficient, std::ptrdiff_t row, const double* in, double* out);
 };
 
+struct KernelChoice {
+    int degree_x, degree_y; // of the bases: 1 or 2; along y 0 in radial symmetry
+    bool axisymmetric;
+};
+
 // The kernels of a basis and a symmetry, for the best instruction set of this processor (best_isa).
-const Kernels& select_kernels(int degree, bool axisymmetric);
+const Kernels& select_kernels(const KernelChoice& choice);
 
 } // namespace gault::core

@@ -110,6 +110,10 @@ struct Pressuremeter {
 
         write_row(step, a0, done);
         step.memory(travel) += step.control(velocity) * step.dt();
+        if (step.memory(travel) > 0.0 && step.measure(radius) < a0)
+            throw std::runtime_error(
+                "a pressuremeter opens a cavity; the radius of this surface falls as the "
+                "wall moves into the soil");
         step.stop_at(end);
         if (done) {
             step.control(velocity) = 0.0;

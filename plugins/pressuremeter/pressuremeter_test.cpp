@@ -126,6 +126,15 @@ TEST(Pressuremeter, RefusesNoRateOrTwo) {
     EXPECT_THROW(program({{"rate", 1e-3}, {"ramp_time", 0.1}, {"ramp_strain", 0.01}}), Invalid);
 }
 
+TEST(Pressuremeter, RefusesASurfaceThatMovesInwards) {
+    const Component c = program({{"rate", 1e-3}});
+    Cavity cavity(c);
+    cavity.step(1e-3);
+    cavity.radius = 0.999 * a0;
+    cavity.measure();
+    EXPECT_EQ(cavity.run.advance(1e-3), GAULT_FAILED);
+}
+
 TEST(Pressuremeter, RefusesASurfaceWithoutARadius) {
     const Component c = program({{"rate", 1e-3}});
     ProgramRun run(c);

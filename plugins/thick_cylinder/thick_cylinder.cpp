@@ -124,6 +124,13 @@ struct ThickCylinder {
             throw gault::Invalid("inner_pressure",
                                  "the cylinder is plastic to its outside before this pressure");
         deformed = *radii;
+        // The closed form flows in the plane; the axial stress, elastic, must stay between the others.
+        const double hoop = (inner_pressure - soil().strength()) / soil().alpha();
+        const double axial = poisson_ratio * (inner_pressure + hoop) + (1.0 - 2.0 * poisson_ratio) * start;
+        if (inner_pressure > cylinder({inner_radius, outer_radius}).first_yield() && axial < hoop)
+            throw gault::Invalid("poisson_ratio",
+                                 "the closed form needs an axial stress between the others; at the wall it "
+                                 "would be below the hoop stress");
     }
 
     Elastic elastic() const { return {young_modulus, poisson_ratio}; }

@@ -233,6 +233,8 @@ TEST(ThickCylinder, RefusesWhatItsClosedFormsDoNotCover) {
     EXPECT_EQ(refused("outer_pressure", 120e3), "outer_pressure");
     EXPECT_EQ(refused("inner_pressure", 90e3), "inner_pressure");
     EXPECT_EQ(refused("inner_pressure", 470e3), "inner_pressure"); // collapse at 462.8 kPa
+    EXPECT_EQ(refused("poisson_ratio", 0.2), "accepted");          // axial 193 kPa, hoop 86.6 kPa
+    EXPECT_EQ(refused("poisson_ratio", -0.1), "poisson_ratio");    // axial 71.3 kPa
     Settings incomplete = case_three;
     incomplete.erase("friction_angle");
     EXPECT_THROW(observer(incomplete), Invalid);

@@ -26,7 +26,7 @@ struct Wall {
         for (int axis = 0; axis < 3; ++axis) {
             const double normal = node.normal(axis);
             if (std::abs(normal) > 0.7) {
-                if (driven) node.prescribe(axis, -std::copysign(node.control(velocity), normal));
+                if (driven) node.prescribe(axis, (normal > 0.0 ? -1.0 : 1.0) * node.control(velocity));
             } else if (rough) {
                 node.prescribe(axis, 0.0);
             }

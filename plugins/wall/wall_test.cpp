@@ -18,6 +18,15 @@ TEST(Wall, MovesIntoTheSoilAgainstItsNormal) {
     EXPECT_EQ(nodes.velocity[1][1], -2e-3);
 }
 
+TEST(Wall, MovesBackWithANegativeVelocity) {
+    const Component c("wall", GAULT_BOUNDARY, "wall", {});
+    Nodes nodes(c, {{-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}});
+    nodes.control[velocity] = -2e-3;
+    ASSERT_EQ(nodes.constrain(), GAULT_OK);
+    EXPECT_EQ(nodes.velocity[0][0], -2e-3);
+    EXPECT_EQ(nodes.velocity[1][1], 2e-3);
+}
+
 TEST(Wall, HoldsStillUntilItIsCommanded) {
     const Component c("wall", GAULT_BOUNDARY, "wall", {});
     Nodes nodes(c, {{-1.0, 0.0, 0.0}});

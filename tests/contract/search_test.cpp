@@ -1,5 +1,5 @@
 // Where plugins are looked for, and which of several files is taken.
-#include "core/registry/isa.hpp"
+#include "core/base/isa.hpp"
 #include "core/registry/registry.hpp"
 #include "tests/contract/scratch.hpp"
 

@@ -3,6 +3,7 @@
 #include "core/scheduler/program.hpp"
 #include "core/scheduler/run.hpp"
 #include "core/scheduler/snapshot.hpp"
+#include "core/solver/explicit.hpp"
 
 #include <algorithm>
 #include <cmath>

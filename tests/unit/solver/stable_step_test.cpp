@@ -51,8 +51,8 @@ struct Dense { // operators of a body as matrices over its free components
 
 std::vector<std::array<Column, 2>> moduli_of(Body& body) {
     std::vector<std::array<Column, 2>> moduli(1);
-    evaluate_moduli(body.model.materials[0], body.model.points[0], view_of(body.model.grid), moduli[0][0],
-                    moduli[0][1]);
+    evaluate_moduli(body.model.materials[0], body.model.points[0], view_of(body.model.grid), undeformed, 0.0,
+                    moduli[0][0], moduli[0][1]);
     return moduli;
 }
 

@@ -28,9 +28,9 @@ TEST_P(EverySurface, OfARingHasItsAreaRadiusAndVolume) {
     s.add(soil, 1600.0);
     Body body(s.scene);
     const Surface inner(*body.motion, low_x), outer(*body.motion, high_x), bottom(*body.motion, low_y);
-    EXPECT_NEAR(inner.total_area(), 2 * pi * a * height, 1e-13);
-    EXPECT_NEAR(outer.total_area(), 2 * pi * b * height, 1e-13);
-    EXPECT_NEAR(bottom.total_area(), pi * (b * b - a * a), 1e-13);
+    EXPECT_NEAR(inner.projected_area(), 2 * pi * a * height, 1e-13);
+    EXPECT_NEAR(outer.projected_area(), 2 * pi * b * height, 1e-13);
+    EXPECT_NEAR(bottom.projected_area(), pi * (b * b - a * a), 1e-13);
     EXPECT_NEAR(inner.mean_radius(), a, 1e-14);
     EXPECT_NEAR(inner.enclosed_volume(), pi * a * a * height, 1e-14);
     EXPECT_EQ(inner.mean_displacement(), 0.0);
@@ -50,9 +50,9 @@ TEST_P(EverySurface, FollowsTheMotionOfTheWall) {
         bottom.refresh(*body.motion);
         EXPECT_NEAR(inner.mean_radius(), 1.05 * a, 1e-14);
         EXPECT_NEAR(inner.mean_displacement(), 0.05 * a, 1e-14); // into the soil
-        EXPECT_NEAR(inner.total_area(), 2 * pi * 1.05 * a * 0.98 * height, 1e-13);
+        EXPECT_NEAR(inner.projected_area(), 2 * pi * 1.05 * a * 0.98 * height, 1e-13);
         EXPECT_NEAR(inner.enclosed_volume(), pi * 1.05 * a * 1.05 * a * 0.98 * height, 1e-14);
-        EXPECT_NEAR(bottom.total_area(), 1.05 * 1.05 * pi * (b * b - a * a), 1e-13);
+        EXPECT_NEAR(bottom.projected_area(), 1.05 * 1.05 * pi * (b * b - a * a), 1e-13);
         EXPECT_NEAR(inner.position(0)[0], 1.05 * inner.reference(0)[0], 1e-14);
     }
 }

@@ -1,7 +1,7 @@
 #include "tests/unit/transfer/plain.hpp"
 #include "tests/unit/transfer/trial.hpp"
 
-#include "core/registry/isa.hpp"
+#include "core/base/isa.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class EveryKernel : public testing::TestWithParam<std::tuple<Isa, int, bool>> {
 
     const Kernels& variant(Isa isa) const {
         setenv("GAULT_ISA", isa_name(isa), 1);
-        const Kernels& found = select_kernels(degree, axisymmetric);
+        const Kernels& found = select_kernels({degree, degree, axisymmetric});
         unsetenv("GAULT_ISA");
         return found;
     }
@@ -484,9 +484,9 @@ INSTANTIATE_TEST_SUITE_P(Variants, EveryKernel,
 
 TEST(SelectKernels, ObeysTheWantedInstructionSet) {
     setenv("GAULT_ISA", "baseline", 1);
-    EXPECT_STREQ(select_kernels(1, true).isa, "baseline");
+    EXPECT_STREQ(select_kernels({1, 1, true}).isa, "baseline");
     unsetenv("GAULT_ISA");
-    EXPECT_STREQ(select_kernels(1, true).isa, isa_name(best_isa()));
+    EXPECT_STREQ(select_kernels({1, 1, true}).isa, isa_name(best_isa()));
 }
 
 } // namespace

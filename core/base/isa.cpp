@@ -1,4 +1,4 @@
-#include "core/registry/isa.hpp"
+#include "core/base/isa.hpp"
 #include "core/base/error.hpp"
 #include "core/base/suggest.hpp"
 

@@ -1,0 +1,110 @@
+#include "core/solver/solver.hpp"
+#include "core/solver/explicit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gault::core {
+namespace {
+
+std::unique_ptr<Motion> make_motion(const Scene& scene, Model& model, int threads) {
+    if (scene.frame == Frame::total)
+        return make_total_motion(model.grid, model.materials, model.points, threads);
+    return make_updated_motion(model.grid, model.materials, model.points, threads,
+                               scene.solver.stress_update == StressUpdate::usf);
+}
+
+} // namespace
+
+double Energies::ratio() const {
+    return straining == 0.0 ? 0.0 : kinetic / std::abs(straining);
+}
+
+double Energies::error() const {
+    const double largest =
+        std::max({std::abs(kinetic), std::abs(internal), std::abs(external), std::abs(damping)});
+    return largest == 0.0 ? 0.0 : std::abs(kinetic + internal - external - damping) / largest;
+}
+
+Solver::Solver(const Scene& scene, Model& model, int threads)
+    : settings_(scene.solver), gravity_(scene.gravity), model_(model),
+      motion_(make_motion(scene, model, threads)), boundaries_(scene, *motion_, model.behind(scene)),
+      internal_(model.grid.layout()), traction_(internal_), velocity_(internal_), value_(internal_),
+      fixed_(model.grid.layout()) {
+    for (int side = 0; side < 4; ++side) {
+        initial_area_[side] = boundaries_.surface(side).projected_area();
+        initial_radius_[side] = boundaries_.surface(side).mean_radius();
+    }
+    motion_->forces(internal_);
+    // Conditions that contradict each other are refused here.
+    boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_);
+}
+
+void Solver::load(double dt) {
+    boundaries_.load(*motion_, time_, dt, velocity_, traction_);
+    loaded_ = true;
+}
+
+void Solver::impose_velocity() { // nodes that are not on a surface are free
+    for (int side = 0; side < 4; ++side)
+        for (const std::size_t n : boundaries_.surface(side).nodes())
+            for (int k = 0; k < 2; ++k)
+                if (fixed_.c[k][n] != 0.0) velocity_.c[k][n] = value_.c[k][n];
+}
+
+double Solver::largest_velocity() const {
+    double largest = 0.0;
+    for (std::size_t n = 0; n < velocity_.c[0].size(); ++n)
+        largest = std::max(largest, std::hypot(velocity_.c[0][n], velocity_.c[1][n]));
+    return largest;
+}
+
+const std::vector<std::string>& Solver::measure_names() {
+    static const std::vector<std::string> names = {
+        "radius",       "initial_radius",  "area",           "initial_area",    "normal_force",
+        "displacement", "enclosed_volume", "kinetic_energy", "internal_energy", "external_work",
+        "damping_work", "energy_error",    "kinetic_ratio",  "largest_velocity"};
+    return names;
+}
+
+bool Solver::measures_surface(const std::string& name) {
+    const auto& names = measure_names();
+    return std::find(names.begin(), names.end(), name) < names.begin() + 7;
+}
+
+// The loads on the surface, and what holds the nodes that conditions on this surface hold.
+double Solver::normal_force(int side) {
+    load_first();
+    const int k = normal_axis(side);
+    double total = boundaries_.load_on(side)[k];
+    for (const std::size_t n : boundaries_.surface(side).nodes())
+        if (fixed_.held_by(side, k, n))
+            total += inertia(k, n) - weight(k, n) - internal_.c[k][n] - traction_.c[k][n];
+    return -outward(side) * total;
+}
+
+std::optional<double> Solver::measure(const std::string& name, int side) {
+    if (name == "kinetic_energy") return energies().kinetic;
+    if (name == "internal_energy") return energies().internal;
+    if (name == "external_work") return energies().external;
+    if (name == "damping_work") return energies().damping;
+    if (name == "energy_error") return energies().error();
+    if (name == "kinetic_ratio") return energies().ratio();
+    if (name == "largest_velocity") return largest_velocity();
+    if (name == "initial_radius") return initial_radius_[side];
+    if (name == "initial_area") return initial_area_[side];
+    if (name == "normal_force") return normal_force(side);
+    Surface& surface = boundaries_.surface(side);
+    surface.refresh(*motion_);
+    if (name == "radius") return surface.mean_radius();
+    if (name == "area") return surface.projected_area();
+    if (name == "displacement") return surface.mean_displacement();
+    if (name == "enclosed_volume") return surface.enclosed_volume();
+    return std::nullopt;
+}
+
+std::unique_ptr<Solver> make_solver(const Scene& scene, Model& model, int threads) {
+    return std::make_unique<ExplicitSolver>(scene, model, threads);
+}
+
+} // namespace gault::core
