@@ -3,7 +3,7 @@
 set -euo pipefail
 
 packages=(build-essential cmake ninja-build pkg-config libeigen3-dev libyaml-cpp-dev libspdlog-dev libfmt-dev
-    libhdf5-dev libgtest-dev libcli11-dev libudunits2-dev nlohmann-json3-dev libssl-dev
+    libhdf5-dev libgtest-dev libcli11-dev libudunits2-dev libsuitesparse-dev nlohmann-json3-dev libssl-dev
     python3-matplotlib python3-h5py python3-numpy "$@")
 missing=()
 for package in "${packages[@]}"; do

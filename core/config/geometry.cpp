@@ -130,9 +130,12 @@ void read_model(const Source& source, Scene& scene) {
     else
         note_choice(scene, "frame", "total", "material stays in place");
     if (const Node* solver = fields.find("solver"); !is_auto(solver))
-        read_choice(*solver, fields.path("solver"), {"auto", "explicit"});
+        scene.solver.kind =
+            read_choice(*solver, fields.path("solver"), {"auto", "explicit", "quasi_static"}) == 2
+                ? SolverKind::quasi_static
+                : SolverKind::explicit_dynamics;
     else
-        note_choice(scene, "solver", "explicit", "the only one there is");
+        note_choice(scene, "solver", "explicit", "nothing is assumed about inertia");
 }
 
 } // namespace gault::core::config

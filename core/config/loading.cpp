@@ -110,13 +110,15 @@ void read_solver(const Source& source, Scene& scene) {
     scene.solver.where = node ? node->where() : source.root.where();
     if (node == nullptr) return;
     const Fields fields(*node, "solver",
-                        {"time_step_factor", "damping", "viscosity", "mass_scaling", "stress_update"});
+                        {"time_step_factor", "damping", "viscosity", "mass_scaling", "stress_update", "strain_step", "tolerance"});
     SolverSettings& solver = scene.solver;
     solver.time_step_factor = fields.quantity(
         "time_step_factor", "1", {.min = 0.0, .max = 2.0, .min_open = true}, solver.time_step_factor);
     solver.viscosity = fields.quantity("viscosity", "1", not_negative, solver.viscosity);
     solver.damping =
         fields.quantity("damping", "1", {.min = 0.0, .max = 1.0, .max_open = true}, solver.damping);
+    solver.strain_step = fields.quantity("strain_step", "1", positive, solver.strain_step);
+    solver.tolerance = fields.quantity("tolerance", "1", {.min = 0.0, .max = 0.1, .min_open = true}, solver.tolerance);
     solver.mass_scaling = fields.quantity("mass_scaling", "1", {.min = 1.0}, solver.mass_scaling);
     if (const Node* update = fields.find("stress_update"))
         solver.stress_update = read_choice(*update, "solver.stress_update", {"usl", "usf"}) == 0

@@ -21,6 +21,7 @@ enum class Frame { total, updated };
 enum class Basis { linear, quadratic };
 enum class Placement { uniform, gauss };
 enum class StressUpdate { usl, usf };
+enum class SolverKind { explicit_dynamics, quasi_static };
 
 // An axis-aligned rectangle in (r, y) or (x, y). Sides in the order low x, high x, low y, high y.
 struct Geometry {
@@ -71,6 +72,11 @@ struct BoundaryUse {
 };
 
 struct SolverSettings {
+    SolverKind kind = SolverKind::explicit_dynamics;
+    // quasi-static
+    double strain_step = 0.005; // largest strain component of a step that is aimed at
+    double tolerance = 1e-6;    // forces out of balance over all forces
+    // explicit
     double time_step_factor = 0.9; // of the true limit 2 / omega_max
     double damping = 0.0;          // Cundall's local coefficient, 0 <= alpha < 1
     double viscosity =

@@ -113,6 +113,8 @@ void Boundaries::constrain(const Motion& motion, double time, double dt, FixedFi
     if (grid.axisymmetric() && grid.axis(0).lower() == 0.0) // no motion across the axis
         for (int j = 0; j < grid.layout().ny; ++j)
             fixed.hold(FixedField::symmetry, 0, grid.layout().index(0, j));
+    for (int i = 0; grid.radial() && i < grid.layout().nx; ++i)
+        fixed.hold(FixedField::symmetry, 1, grid.layout().index(i, 0));
     for (Condition& condition : conditions_)
         for (std::size_t s = 0; s < condition.held.size(); ++s) {
             Held& held = condition.held[s];
@@ -168,7 +170,7 @@ void Boundaries::impose(const Condition& condition, int side, const Held& held, 
 }
 
 void Boundaries::load(const Motion& motion, double time, double dt, const VectorField& velocity,
-                      VectorField& force) {
+                      VectorField& force, Stiffness* stiffness) {
     force.clear();
     load_on_ = {};
     for (Condition& condition : conditions_)
@@ -206,6 +208,11 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
             facets.control = condition.control.data();
             facets.pressure = l.pressure.data();
             point_at(facets.traction, l.traction);
+            if (stiffness) {
+                if (l.slope[0].empty()) resize(l.slope, n);
+                clear(l.slope);
+                point_at(facets.slope, l.slope);
+            }
             gault_error error{-1, 0, -1, ""};
             const gault_status status = condition.api().load(condition.instance.self(), &facets, &error);
             if (status != GAULT_OK) refuse(condition, status, error);
@@ -215,6 +222,9 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
                 const std::array<double, 2> push{l.traction[0][q] * size - p * area[0],
                                                  l.traction[1][q] * size - p * area[1]};
                 surface.add_force(force, q, push);
+                if (stiffness)
+                    surface.add_stiffness(*stiffness, q, l.pressure[q], {l.traction[0][q], l.traction[1][q]},
+                                          {{{l.slope[0][q], l.slope[1][q]}, {l.slope[3][q], l.slope[4][q]}}});
                 for (int a = 0; a < 2; ++a)
                     load_on_[condition.sides[s]][a] += push[a];
             }

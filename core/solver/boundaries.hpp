@@ -3,6 +3,7 @@
 #include "core/config/scene.hpp"
 #include "core/registry/instance.hpp"
 #include "core/solver/stable_step.hpp"
+#include "core/solver/stiffness.hpp"
 #include "core/solver/surface.hpp"
 
 #include <array>
@@ -28,7 +29,9 @@ class Boundaries {
     // Prescribed components at `time`. Throws InputError when two conditions contradict each other.
     void constrain(const Motion& motion, double time, double dt, FixedField& fixed, VectorField& value);
     // Nodal forces from surface loads at the present positions.
-    void load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force);
+    // `stiffness`, if any, += -d(force)/d(displacement).
+    void load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force,
+              Stiffness* stiffness = nullptr);
     // Of the last load: the force on a side, N.
     const std::array<double, 2>& load_on(int side) const { return load_on_[side]; }
 
@@ -52,6 +55,7 @@ class Boundaries {
         std::array<Column, 3> position, normal, displacement, velocity, traction, initial_traction;
         std::array<Column, 2> impedance;
         Column shear_modulus, pressure;
+        std::array<Column, 9> slope; // made when first asked for
     };
     struct Condition {
         Instance instance;

@@ -224,9 +224,51 @@ void fill_inputs(const Material& material, gault_points& p, const BatchView& vie
 
 } // namespace
 
-UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch,
-                           const BatchView& view, Workspace& workspace, const Moment& moment,
-                           const GridView& grid) {
+namespace {
+
+// d(stress)/d(strain) by differences: strains shifted one component at a time; where F is wanted, F_new
+// shifted to exp(e) F_new, to first order.
+gault_status differentiate(const Material& material, const Call& whole, std::size_t n, double* const* tangent,
+                           gault_error& error) {
+    constexpr double shift = 1e-8;
+    static constexpr int pair[tangent_columns][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}};
+    Call shifted = whole;
+    std::vector<Column> stress(6, Column(n)), state(material.state_components(), Column(n)),
+        moved(9, Column(n));
+    for (int k = 0; k < 6; ++k)
+        shifted.p.stress[k] = stress[k].data();
+    for (int k = 0; k < material.state_components(); ++k)
+        shifted.p.state[k] = state[k].data();
+    for (int column = 0; column < tangent_columns; ++column) {
+        const double* strain = whole.p.strain[column];
+        std::transform(strain, strain + n, moved[0].begin(), [](double e) { return e + shift; });
+        shifted.p.strain[column] = moved[0].data();
+        if (whole.p.F_new[0]) {
+            const auto [i, j] = pair[column];
+            for (int k = 0; k < 9; ++k)
+                std::copy_n(whole.p.F_new[k], n, moved[k].data());
+            for (int k = 0; k < 3; ++k)
+                for (std::size_t q = 0; q < n; ++q) {
+                    moved[3 * i + k][q] += shift * whole.p.F_new[3 * j + k][q];
+                    if (i != j) moved[3 * j + k][q] += shift * whole.p.F_new[3 * i + k][q];
+                }
+            for (int k = 0; k < 9; ++k)
+                shifted.p.F_new[k] = moved[k].data();
+        }
+        if (const gault_status status = call(material, shifted.p, error); status != GAULT_OK) return status;
+        shifted.p.strain[column] = strain;
+        for (int row = 0; row < 6; ++row)
+            for (std::size_t q = 0; q < n; ++q)
+                tangent[6 * row + column][q] = (stress[row][q] - whole.p.stress[row][q]) / shift;
+    }
+    return GAULT_OK;
+}
+
+} // namespace
+
+UpdateFailure update_batch(const Material& material, Points& points, const std::vector<Column>& state_old,
+                           const Batch& batch, const BatchView& view, Workspace& workspace,
+                           const Moment& moment, const GridView& grid, double* const* tangent) {
     const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
     const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
     if (n == 0) return {};
@@ -234,20 +276,29 @@ UpdateFailure update_batch(const Material& material, Points& points, const Batch
     double* old[GAULT_MAX_STATE];
     for (int k = 0; k < material.state_components(); ++k)
         old[k] = workspace.column(Workspace::state_old + k);
-    rotate_states(material, points.columns().state.data(), first, n, view, old);
+    rotate_states(material, state_old.data(), first, n, view, old);
     fill_inputs(material, whole.p, view, workspace, n, grid);
+    if (tangent && material.has_tangent()) std::copy_n(tangent, 36, whole.p.tangent);
 
     gault_error error;
     gault_status status = call(material, whole.p, error);
-    const double fraction = std::clamp(whole.p.suggest, 1.0 / 1024.0, 0.5);
-    for (int pieces = static_cast<int>(std::ceil(1.0 / fraction)); status == GAULT_RETRY && pieces <= 1024;
-         pieces *= 2)
-        status = update_in_pieces(material, whole, n, pieces, error);
+    const double fraction =
+        std::isfinite(whole.p.suggest) ? std::clamp(whole.p.suggest, 1.0 / 1024.0, 0.5) : 0.5;
+    if (tangent) {
+        if (status == GAULT_OK && !material.has_tangent())
+            status = differentiate(material, whole, n, tangent, error);
+    } else {
+        for (int pieces = static_cast<int>(std::ceil(1.0 / fraction));
+             status == GAULT_RETRY && pieces <= 1024; pieces *= 2)
+            status = update_in_pieces(material, whole, n, pieces, error);
+    }
     if (status == GAULT_OK) return {};
     const std::size_t slot =
         first + static_cast<std::size_t>(std::clamp<int64_t>(error.point, 0, static_cast<int64_t>(n) - 1));
     return {status, slot,
-            status == GAULT_RETRY ? "the step had to be divided more than 1024 times" : bounded(error.text)};
+            status == GAULT_RETRY && !tangent ? "the step had to be divided more than 1024 times"
+                                              : bounded(error.text),
+            fraction};
 }
 
 namespace {

@@ -33,6 +33,7 @@ class Material {
     const std::vector<HostField>& inputs() const { return inputs_; }
     bool wants(HostField field) const;
     bool finite_strain() const { return api().flags & GAULT_FINITE_STRAIN; }
+    bool has_tangent() const { return (api().flags & GAULT_HAS_TANGENT) && !finite_strain(); }
     bool one_at_a_time() const { return api().flags & GAULT_ONE_AT_A_TIME; }
     bool rotates_states() const { return rotates_states_; }
 
@@ -81,16 +82,21 @@ struct UpdateFailure {
     gault_status status = GAULT_OK;
     std::size_t slot = 0;
     std::string text;
+    double fraction = 0.5; // of the step that is worth trying, where the status is RETRY
 };
 
 // Points the kernel's workspace arrays of `view` at what this material needs.
 void attach_workspace(const Material& material, Workspace& workspace, BatchView& view);
 
-// Rotates tensor and vector states, fills the inputs, and calls the model; on RETRY the increment is divided.
-// New stress and states are in the points' columns afterwards.
-UpdateFailure update_batch(const Material& material, Points& points, const Batch& batch,
-                           const BatchView& view, Workspace& workspace, const Moment& moment,
-                           const GridView& grid);
+constexpr int tangent_columns = 4; // xx yy zz xy of the strain: the others stay zero in every symmetry so far
+
+// Rotates tensor and vector states, fills the inputs, and calls the model. New stress and states are in the
+// points' columns afterwards; `state_old` may be those very columns. Without `tangent` the increment is
+// divided on RETRY; with it (36 arrays, as in gault.h; only columns and rows xx yy zz xy are right) RETRY is
+// an answer, and a model without a tangent of its own is differentiated numerically.
+UpdateFailure update_batch(const Material& material, Points& points, const std::vector<Column>& state_old,
+                           const Batch& batch, const BatchView& view, Workspace& workspace,
+                           const Moment& moment, const GridView& grid, double* const* tangent = nullptr);
 
 // Deformation gradient of the point in a slot, xx xy yx yy zz.
 using Deformation = std::function<std::array<double, 5>(std::size_t)>;

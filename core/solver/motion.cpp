@@ -89,8 +89,8 @@ UpdateFailure Motion::update_stress(const Task& task, const BatchView& view, Wor
     static std::mutex legacy; // models with global state are called one at a time
     std::unique_lock<std::mutex> alone(legacy, std::defer_lock);
     if (materials_[task.material].one_at_a_time()) alone.lock();
-    return update_batch(materials_[task.material], points_[task.material], batch, view, workspace, moment,
-                        grid_view());
+    return update_batch(materials_[task.material], points_[task.material],
+                        points_[task.material].columns().state, batch, view, workspace, moment, grid_view());
 }
 
 void Motion::clear_patch(const Task& task, int components) {

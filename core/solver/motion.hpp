@@ -80,6 +80,29 @@ class Motion {
     virtual Deformation deformation(int material) const = 0; // in the updated frame only det F is right,
                                                              // unless the material wants F
 
+    // ---- solvers without inertia: trial displacements of the nodes since the start of a step ----
+    struct State { // all that a step changes
+        std::vector<Points> points;
+        Grid grid;
+        State(std::vector<Points> all, Grid now) : points(std::move(all)), grid(std::move(now)) {}
+        virtual ~State() = default;
+    };
+    virtual std::unique_ptr<State> save() const = 0;
+    virtual void restore(const State& state) = 0;
+    struct Site { // of a point, on the configuration that weights belong to: initial, or at the start of the
+                  // step
+        int i, j; // its cell, and first node
+        Axis::Weights x, y;
+        double radius, volume;             // there; m, m^3
+        double start_radius;               // m, at the start of the step
+        std::array<double, 4> gradient;    // of the configuration at the start of the step on it: xx xy yx yy
+        std::array<double, 5> deformation; // F at the start of the step
+    };
+    virtual Site site(const State& start, int material, std::size_t slot) const = 0;
+    virtual void attempt(const State& start,
+                         const VectorField& du) = 0;           // nodes are displaced, points are not yet
+    virtual void arrive(const VectorField& du, double dt) = 0; // points follow the nodes
+
     // Viscous moduli (lame, shear; Pa) of every material: stress of the step's strain that resists in the
     // forces only.
     void set_viscosity(std::vector<std::array<double, 2>> moduli) { viscosity_ = std::move(moduli); }

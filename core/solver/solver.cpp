@@ -1,5 +1,6 @@
 #include "core/solver/solver.hpp"
 #include "core/solver/explicit.hpp"
+#include "core/solver/quasi_static.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +105,8 @@ std::optional<double> Solver::measure(const std::string& name, int side) {
 }
 
 std::unique_ptr<Solver> make_solver(const Scene& scene, Model& model, int threads) {
+    if (scene.solver.kind == SolverKind::quasi_static)
+        return std::make_unique<QuasiStaticSolver>(scene, model, threads);
     return std::make_unique<ExplicitSolver>(scene, model, threads);
 }
 

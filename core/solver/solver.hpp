@@ -34,8 +34,9 @@ class Solver {
     // Takes back the last step, where steps are repeatable(), for a repetition at this fraction of its
     // length.
     virtual void undo(double /*fraction*/) {}
-    virtual double stability_limit() const { return 0.0; } // s, where there is one
-    virtual int64_t iterations() const { return 0; }       // of all steps, where a step iterates
+    virtual double stability_limit() const { return 0.0; }         // s, where there is one
+    virtual int64_t iterations() const { return 0; }               // of all steps, where a step iterates
+    virtual int64_t updates() const { return motion_->updates(); } // constitutive updates so far
 
     Motion& motion() { return *motion_; }
     Boundaries& boundaries() { return boundaries_; }

@@ -57,6 +57,7 @@ void Surface::refresh(const Motion& motion) {
         const double ring = f.weight * (axisymmetric_ ? 2.0 * std::numbers::pi * x[0] : 1.0);
         at_[q] = {x,
                   {-turn * tangent[1] * ring, turn * tangent[0] * ring},
+                  {f.weight * tangent[0], f.weight * tangent[1]},
                   f.weight * std::sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1])};
     }
 }
@@ -75,6 +76,35 @@ void Surface::add_force(VectorField& field, std::size_t q, const std::array<doub
     for (int a = 0; a < f.functions; ++a)
         for (int k = 0; k < 2; ++k)
             field.c[k][f.node[a]] += f.value[a] * force[k];
+}
+
+void Surface::add_stiffness(Stiffness& stiffness, std::size_t q, double pressure,
+                            const std::array<double, 2>& traction,
+                            const std::array<std::array<double, 2>, 2>& slope) const {
+    const Facet& f = facets_[q];
+    const Now& now = at_[q];
+    const double turn = side_ == low_x || side_ == high_y ? 1.0 : -1.0;
+    const double around = axisymmetric_ ? 2.0 * std::numbers::pi : 0.0,
+                 ring = axisymmetric_ ? around * now.position[0] : 1.0;
+    const double size = std::hypot(now.area[0], now.area[1]);
+    for (int b = 0; b < f.functions; ++b) {
+        // d(area vector)/d(displacement of node b)
+        const double along = f.slope[b] * f.weight * ring, wider = around * f.value[b];
+        const double area[2][2] = {{-turn * now.tangent[1] * wider, -turn * along},
+                                   {turn * now.tangent[0] * wider + turn * along, 0.0}};
+        double force[2][2];
+        for (int m = 0; m < 2; ++m) {
+            const double stretch =
+                size > 0.0 ? (now.area[0] * area[0][m] + now.area[1] * area[1][m]) / size : 0.0;
+            for (int k = 0; k < 2; ++k)
+                force[k][m] = pressure * area[k][m] - traction[k] * stretch + slope[k][m] * f.value[b] * size;
+        }
+        for (int a = 0; a < f.functions; ++a) {
+            const double n = f.value[a];
+            stiffness.add(f.ij[a], f.ij[b],
+                          {{n * force[0][0], n * force[0][1]}, {n * force[1][0], n * force[1][1]}});
+        }
+    }
 }
 
 double Surface::mean_radius() const {

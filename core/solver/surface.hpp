@@ -1,6 +1,7 @@
 // A side of the model: quadrature points on it, where they are now, and what can be measured there.
 #pragma once
 #include "core/solver/motion.hpp"
+#include "core/solver/stiffness.hpp"
 
 #include <array>
 #include <vector>
@@ -28,6 +29,12 @@ class Surface {
     // field += N^T force, the consistent nodal force.
     void add_force(VectorField& field, std::size_t q, const std::array<double, 2>& force) const;
 
+    // stiffness += -d(force)/d(displacement) of a pressure against the area vector and a traction on the area
+    // whose own derivative is -slope, Pa/m.
+    void add_stiffness(Stiffness& stiffness, std::size_t q, double pressure,
+                       const std::array<double, 2>& traction,
+                       const std::array<std::array<double, 2>, 2>& slope) const;
+
     // Measures, from the last refresh.
     double mean_radius() const;       // m, over the length
     double projected_area() const;    // m^2, across the surface's axis
@@ -44,7 +51,7 @@ class Surface {
         double length = 0.0; // along an axis of degree 0, whose one function has no slope
     };
     struct Now {
-        std::array<double, 2> position, area;
+        std::array<double, 2> position, area, tangent; // tangent times weight
         double length;
     };
 

@@ -57,6 +57,27 @@ class TotalMotion final : public Motion {
         return energy;
     }
 
+    struct TotalState final : State {
+        VectorField displacement;
+        explicit TotalState(const TotalMotion& m)
+            : State(m.points_, m.grid_), displacement(m.displacement_) {}
+    };
+    std::unique_ptr<State> save() const override { return std::make_unique<TotalState>(*this); }
+    void restore(const State& state) override {
+        points_ = state.points;
+        displacement_ = static_cast<const TotalState&>(state).displacement;
+        ++configuration_;
+    }
+    Site site(const State& start, int material, std::size_t slot) const override;
+    void attempt(const State& start, const VectorField& du) override {
+        const VectorField& from = static_cast<const TotalState&>(start).displacement;
+        each_node([&](int k, std::size_t n) { displacement_.c[k][n] = from.c[k][n] + du.c[k][n]; });
+        ++configuration_;
+    }
+    void arrive(const VectorField& du, double dt) override {
+        each_node([&](int k, std::size_t n) { flip_.c[k][n] = du.c[k][n] / dt; });
+    }
+
     PointRecord record(int material, std::size_t slot) const override;
     Deformation deformation(int material) const override;
 
@@ -90,6 +111,7 @@ class TotalMotion final : public Motion {
         std::array<double, 2> reference;
     };
     Basis2 basis(int material, std::size_t slot) const;
+    std::array<double, 5> gradient(const Basis2& at, const VectorField& displacement) const; // F
     void assemble_mass();
     // Strains, stresses (unless only the geometry is wanted) and internal forces, batch by batch.
     void sweep(const VectorField& velocity, const Moment& moment, bool update);
@@ -190,23 +212,39 @@ void TotalMotion::stiffness(const VectorField& v, const std::vector<std::array<C
     reduce({&out.c[0], &out.c[1]});
 }
 
-Deformation TotalMotion::deformation(int material) const {
-    return [this, material](std::size_t slot) -> std::array<double, 5> {
-        const Basis2 at = basis(material, slot);
-        std::array<double, 5> f = undeformed(slot);
-        double radial = 0.0;
-        for (int b = 0; b <= grid_.degree(1); ++b)
-            for (int a = 0; a <= grid_.degree(0); ++a) {
-                const std::size_t n = grid_.layout().index(at.i + a, at.j + b);
-                for (int k = 0; k < 2; ++k) {
-                    f[2 * k] += at.x.slope[a] * at.y.value[b] * displacement_.c[k][n];
-                    f[2 * k + 1] += at.x.value[a] * at.y.slope[b] * displacement_.c[k][n];
-                }
-                radial += at.x.value[a] * at.y.value[b] * displacement_.c[0][n];
+std::array<double, 5> TotalMotion::gradient(const Basis2& at, const VectorField& displacement) const {
+    std::array<double, 5> f = undeformed(0);
+    double radial = 0.0;
+    for (int b = 0; b <= grid_.degree(1); ++b)
+        for (int a = 0; a <= grid_.degree(0); ++a) {
+            const std::size_t n = grid_.layout().index(at.i + a, at.j + b);
+            for (int k = 0; k < 2; ++k) {
+                f[2 * k] += at.x.slope[a] * at.y.value[b] * displacement.c[k][n];
+                f[2 * k + 1] += at.x.value[a] * at.y.slope[b] * displacement.c[k][n];
             }
-        if (grid_.axisymmetric()) f[4] += radial / at.reference[0];
-        return f;
-    };
+            radial += at.x.value[a] * at.y.value[b] * displacement.c[0][n];
+        }
+    if (grid_.axisymmetric()) f[4] += radial / at.reference[0];
+    return f;
+}
+
+Deformation TotalMotion::deformation(int material) const {
+    return [this, material](std::size_t slot) { return gradient(basis(material, slot), displacement_); };
+}
+
+Motion::Site TotalMotion::site(const State& start, int material, std::size_t slot) const {
+    const Basis2 at = basis(material, slot);
+    const std::array<double, 5> f = gradient(at, static_cast<const TotalState&>(start).displacement);
+    const double radius = at.reference[0], weight = grid_.axisymmetric() ? radius : 1.0;
+    return {at.i,
+            at.j,
+            at.x,
+            at.y,
+            radius,
+            points_[material].columns().measure[slot] * weight,
+            radius * f[4],
+            {f[0], f[1], f[2], f[3]},
+            f};
 }
 
 PointRecord TotalMotion::record(int material, std::size_t slot) const {

@@ -15,8 +15,8 @@ class UpdatedMotion final : public Motion {
   public:
     UpdatedMotion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads,
                   bool stress_first)
-        : Motion(grid, materials, points, threads), stress_first_(stress_first), mass_(grid.layout().size),
-          mapped_mass_(mass_) {
+        : Motion(grid, materials, points, threads), stress_first_(stress_first), shift_(grid.layout()),
+          mass_(grid.layout().size), mapped_mass_(mass_) {
         for (int side = 0; side < 4; ++side)
             bend_[side].assign(grid.side_nodes(side), 0.0);
         for (int k = 0; k < 2; ++k)
@@ -26,7 +26,8 @@ class UpdatedMotion final : public Motion {
     }
 
     double node_position(int i, int j, int component) const override {
-        return grid_.axis(component).node(component ? j : i);
+        return grid_.axis(component).node(component ? j : i) +
+               shift_.c[component][grid_.layout().index(i, j)];
     }
     const Column& mass() const override { return mass_; }
     bool stress_first() const override { return stress_first_; }
@@ -78,6 +79,29 @@ class UpdatedMotion final : public Motion {
                 c.measure[slot]};
     }
 
+    struct UpdatedState final : State {
+        std::array<std::array<double, 2>, 2> ends;
+        std::array<std::vector<double>, 4> bend;
+        explicit UpdatedState(const UpdatedMotion& m)
+            : State(m.points_, m.grid_), ends(m.ends_), bend(m.bend_) {}
+    };
+    std::unique_ptr<State> save() const override { return std::make_unique<UpdatedState>(*this); }
+    void restore(const State& state) override {
+        points_ = state.points;
+        grid_ = state.grid;
+        ends_ = static_cast<const UpdatedState&>(state).ends;
+        bend_ = static_cast<const UpdatedState&>(state).bend;
+        shift_.clear();
+        plan();
+        ++configuration_;
+    }
+    Site site(const State&, int material, std::size_t slot) const override;
+    void attempt(const State&, const VectorField& du) override {
+        shift_ = du;
+        ++configuration_;
+    }
+    void arrive(const VectorField& du, double dt) override;
+
     Deformation deformation(int material) const override {
         return [&c = points_[material].columns(),
                 density = materials_[material].density()](std::size_t s) -> std::array<double, 5> {
@@ -111,6 +135,7 @@ class UpdatedMotion final : public Motion {
     void resettle();
 
     bool stress_first_;
+    VectorField shift_;                         // of the nodes, of a trial
     Column mass_, mapped_mass_;                 // of the nodes at the last forces, and at the last mapping
     std::array<std::array<double, 2>, 2> ends_; // of the axes, m
     std::array<std::vector<double>, 4> bend_;   // how far each wall node has left the straight wall, m
@@ -154,6 +179,43 @@ void UpdatedMotion::deform(const VectorField& velocity, const Moment& moment) {
     });
     settle(outcomes_);
     if (move) follow(velocity, moment.dt);
+}
+
+Motion::Site UpdatedMotion::site(const State&, int material, std::size_t slot) const {
+    const Points& points = points_[material];
+    const PointColumns& c = points.columns();
+    const int i = points.layout().page_column[slot / page_slots], j = grid_.axis(1).cell_of(c.place[1][slot]);
+    const Axis &x = grid_.axis(0), &y = grid_.axis(1);
+    const double radius = c.place[0][slot];
+    return {i,
+            j,
+            x.weights(i, (radius - x.origin()[i]) * x.inverse_length()[i]),
+            y.weights(j, (c.place[1][slot] - y.origin()[j]) * y.inverse_length()[j]),
+            radius,
+            c.measure[slot],
+            radius,
+            {1.0, 0.0, 0.0, 1.0},
+            deformation(material)(slot)};
+}
+
+// As the explicit step does it, with the strain of the whole step: positions, volumes and F, then the grid.
+void UpdatedMotion::arrive(const VectorField& du, double dt) {
+    VectorField velocity(du);
+    for (Column& c : velocity.c)
+        for (double& v : c)
+            v /= dt;
+    shift_.clear();
+    const StrainInput in{
+        {velocity.c[0].data(), velocity.c[1].data()}, {nullptr, nullptr}, dt, HUGE_VAL, false};
+    const GridView grid = grid_view();
+    for (const Task& task : tasks_) {
+        BatchView v = view(task);
+        attach_workspace(materials_[task.material], workspaces_[0], v);
+        kernels_.updated_strain(grid, v, in, true, true);
+    }
+    follow(velocity, dt);
+    VectorField ignored(grid_.layout());
+    forces(ignored); // and the nodal masses
 }
 
 void UpdatedMotion::follow(const VectorField& velocity, double dt) {

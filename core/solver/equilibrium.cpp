@@ -1,0 +1,252 @@
+#include "core/solver/equilibrium.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gault::core {
+namespace {
+
+std::size_t largest_batch(const Points& points) {
+    std::size_t most = 0;
+    for (const Batch& batch : points.layout().batches)
+        most = std::max<std::size_t>(most, static_cast<std::size_t>(batch.capacity) * page_slots);
+    return most;
+}
+
+} // namespace
+
+// Of one point: the basis on the deformed configuration and the strain of the step.
+struct Equilibrium::PointWork {
+    bool live = false;
+    Motion::Site site;
+    int functions = 0;
+    double value[9], slope[9][2]; // N, and its gradient on the deformed configuration, 1/m
+    double per_radius = 0.0;      // 1 / r now; 0 in plane strain
+    double volume = 0.0;          // now, m^3
+    double hoop = 0.0;            // ln(r / r at the start)
+    LogStrain strain{1.0, 0.0, 0.0, 1.0};
+    std::array<double, 5> gradient_new; // F: xx xy yx yy zz
+};
+
+Equilibrium::Equilibrium(Model& model, Motion& motion) : model_(model), motion_(motion) {
+    std::size_t most = 0;
+    for (const Points& points : model.points) {
+        workspace_.emplace_back(largest_batch(points));
+        most = std::max(most, largest_batch(points));
+    }
+    tangent_.assign(36, Column(most));
+}
+
+bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int material, std::size_t slot,
+                         PointWork& w) const {
+    const Grid& grid = motion_.grid();
+    const NodeLayout& layout = grid.layout();
+    w.site = motion_.site(start, material, slot);
+    double h[4] = {}, move = 0.0; // d(du)/dX, and the radial part of du
+    w.functions = 0;
+    for (int b = 0; b <= grid.degree(1); ++b)
+        for (int a = 0; a <= grid.degree(0); ++a, ++w.functions) {
+            const std::size_t n = layout.index(w.site.i + a, w.site.j + b);
+            const double nx = w.site.x.slope[a] * w.site.y.value[b],
+                         ny = w.site.x.value[a] * w.site.y.slope[b];
+            w.value[w.functions] = w.site.x.value[a] * w.site.y.value[b];
+            w.slope[w.functions][0] = nx;
+            w.slope[w.functions][1] = ny;
+            for (int k = 0; k < 2; ++k) {
+                h[2 * k] += nx * du.c[k][n];
+                h[2 * k + 1] += ny * du.c[k][n];
+            }
+            move += w.value[w.functions] * du.c[0][n];
+        }
+    const auto& f = w.site.gradient; // at the start
+    const double g[4] = {f[0] + h[0], f[1] + h[1], f[2] + h[2], f[3] + h[3]};
+    const double det = g[0] * g[3] - g[1] * g[2], det_old = f[0] * f[3] - f[1] * f[2];
+    const double radius = w.site.start_radius + move;
+    if (!(det > 0.0) || !(radius > 0.0)) return false;
+    const double step[4] = {(g[0] * f[3] - g[1] * f[2]) / det_old, (g[1] * f[0] - g[0] * f[1]) / det_old,
+                            (g[2] * f[3] - g[3] * f[2]) / det_old, (g[3] * f[0] - g[2] * f[1]) / det_old};
+    w.strain = LogStrain(step[0], step[1], step[2], step[3]);
+    for (int n = 0; n < w.functions; ++n) {
+        const double nx = w.slope[n][0], ny = w.slope[n][1];
+        w.slope[n][0] = (nx * g[3] - ny * g[2]) / det;
+        w.slope[n][1] = (ny * g[0] - nx * g[1]) / det;
+    }
+    w.volume = w.site.volume * det;
+    w.hoop = w.per_radius = 0.0;
+    if (grid.axisymmetric()) {
+        w.volume *= radius / w.site.radius;
+        w.per_radius = 1.0 / radius;
+        w.hoop = std::log(radius / w.site.start_radius);
+    }
+    const auto& F = w.site.deformation;
+    w.gradient_new = {step[0] * F[0] + step[1] * F[2], step[0] * F[1] + step[1] * F[3],
+                      step[2] * F[0] + step[3] * F[2], step[2] * F[1] + step[3] * F[3],
+                      F[4] * radius / w.site.start_radius};
+    return true;
+}
+
+Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const VectorField& du,
+                                          const Moment& moment, double limit, VectorField& internal,
+                                          Stiffness& stiffness) {
+    internal.clear();
+    stiffness.clear();
+    Answer all;
+    for (int m = 0; m < static_cast<int>(model_.points.size()); ++m)
+        for (const Batch& batch : model_.points[m].layout().batches) {
+            if (batch.pages == 0) continue;
+            const Answer one = evaluate(start, du, moment, limit, m, batch, internal, stiffness);
+            all.largest_strain = std::max(all.largest_strain, one.largest_strain);
+            if (!one.found) {
+                all.fraction = one.fraction;
+                all.reason = one.reason;
+                return all;
+            }
+        }
+    all.found = true;
+    return all;
+}
+
+Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const VectorField& du,
+                                          const Moment& moment, double limit, int m, const Batch& batch,
+                                          VectorField& internal, Stiffness& stiffness) {
+    Material& material = model_.materials[m];
+    Points& points = model_.points[m];
+    const PointColumns& old = start.points[m].columns();
+    Workspace& workspace = workspace_[m];
+    const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
+    const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
+    BatchView view{};
+    view.pages = batch.pages;
+    view.column = points.layout().page_column.data() + batch.first_page;
+    view.cell_row = batch.cell_row;
+    attach_workspace(material, workspace, view);
+
+    Answer answer;
+    const int updates_a_point = material.has_tangent() ? 1 : 1 + tangent_columns;
+    std::vector<PointWork> work(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        PointWork& w = work[i];
+        w.live = points.identity(first + i) != no_point;
+        // An empty slot repeats the point beside it.
+        if (!w.live && i > 0)
+            w = work[i - 1], w.live = false;
+        else if (!strain(start, du, m, first + i, w))
+            return answer;
+        const LogStrain& e = w.strain;
+        for (const double component : {e.xx, e.yy, e.xy, w.hoop})
+            answer.largest_strain = std::max(answer.largest_strain, std::abs(component));
+        view.strain[0][i] = e.xx;
+        view.strain[1][i] = e.yy;
+        view.strain[2][i] = w.hoop;
+        view.strain[3][i] = e.xy;
+        const bool rotate = !material.finite_strain();
+        const double c = rotate ? e.cosine : 1.0, s = rotate ? e.sine : 0.0;
+        const std::size_t slot = first + i;
+        const double xx = old.stress[0][slot], yy = old.stress[1][slot], xy = old.stress[3][slot];
+        const double yz = old.stress[4][slot], zx = old.stress[5][slot];
+        view.stress_old[0][i] = c * c * xx - 2.0 * c * s * xy + s * s * yy;
+        view.stress_old[1][i] = s * s * xx + 2.0 * c * s * xy + c * c * yy;
+        view.stress_old[2][i] = old.stress[2][slot];
+        view.stress_old[3][i] = c * s * (xx - yy) + (c * c - s * s) * xy;
+        view.stress_old[4][i] = c * yz + s * zx;
+        view.stress_old[5][i] = c * zx - s * yz;
+        if (view.rotation[0]) {
+            view.rotation[0][i] = c;
+            view.rotation[1][i] = -s; // the kernels turn the other way round
+        }
+        for (int k = 0; k < 5 && view.gradient_old[0]; ++k) {
+            view.gradient_old[k][i] = w.site.deformation[k];
+            view.gradient_new[k][i] = w.gradient_new[k];
+        }
+        if (view.volume_ratio) {
+            const auto& f = w.gradient_new;
+            view.volume_ratio[i] = (f[0] * f[3] - f[1] * f[2]) * f[4];
+        }
+        updates_ += w.live ? updates_a_point : 0;
+    }
+    if (answer.largest_strain > limit) return answer;
+
+    double* tangent[36];
+    for (int k = 0; k < 36; ++k)
+        tangent[k] = tangent_[k].data();
+    const UpdateFailure failure = update_batch(material, points, old.state, batch, view, workspace, moment,
+                                               view_of(motion_.grid()), tangent);
+    if (failure.status != GAULT_OK) {
+        answer.fraction = failure.fraction;
+        answer.reason = fmt::format("{}: {}", motion_.where(m, failure.slot), failure.text);
+        if (failure.status != GAULT_RETRY) throw RunError(answer.reason);
+        return answer;
+    }
+    assemble(work, batch, m, tangent, internal, stiffness);
+    answer.found = true;
+    return answer;
+}
+
+// Internal force -v (sigma g + hoop) and its derivative. With l = du (x) g, l_h = du_r / r, d(sigma) the spin
+// of the stress and the tangent times the strain rate:
+//   d[v (sigma g_a)] = v [(tr l + l_h) sigma g_a + d(sigma) g_a - sigma l^T g_a], likewise for the hoop
+//   stress.
+void Equilibrium::assemble(const std::vector<PointWork>& work, const Batch& batch, int material,
+                           const double* const* tangent, VectorField& internal, Stiffness& stiffness) const {
+    const Points& points = model_.points[material];
+    const Grid& grid = motion_.grid();
+    const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
+    static constexpr int component[4] = {0, 1, 2, 3}; // xx yy zz xy of the six
+    for (std::size_t i = 0; i < work.size(); ++i) {
+        const PointWork& w = work[i];
+        if (!w.live) continue;
+        double s[4], d[4][4];
+        for (int k = 0; k < 4; ++k) {
+            s[k] = points.columns().stress[component[k]][first + i];
+            for (int m = 0; m < 4; ++m)
+                d[k][m] = tangent[component[k] * 6 + component[m]][i];
+        }
+        // d(P)/d(l): P = force per gradient, xx xy yx yy and hoop; l = xx xy yx yy and hoop.
+        double a[5][5];
+        for (int q = 0; q < 5; ++q) {
+            double l[5] = {};
+            l[q] = 1.0;
+            const LogStrain::Rate e = w.strain.rate(l[0], l[1], l[2], l[3]);
+            double ds[4];
+            for (int k = 0; k < 4; ++k)
+                ds[k] = d[k][0] * e.xx + d[k][1] * e.yy + d[k][2] * l[4] + d[k][3] * e.xy;
+            ds[0] -= 2.0 * e.spin * s[3];
+            ds[1] += 2.0 * e.spin * s[3];
+            ds[3] += e.spin * (s[0] - s[1]);
+            const double trace = l[0] + l[3] + l[4];
+            a[0][q] = trace * s[0] + ds[0] - s[0] * l[0] - s[3] * l[1];
+            a[1][q] = trace * s[3] + ds[3] - s[0] * l[2] - s[3] * l[3];
+            a[2][q] = trace * s[3] + ds[3] - s[3] * l[0] - s[1] * l[1];
+            a[3][q] = trace * s[1] + ds[1] - s[3] * l[2] - s[1] * l[3];
+            a[4][q] = trace * s[2] + ds[2] - s[2] * l[4];
+        }
+        const int width = grid.degree(0) + 1;
+        const auto node = [&](int n) {
+            return std::array<int, 2>{w.site.i + n % width, w.site.j + n / width};
+        };
+        for (int n = 0; n < w.functions; ++n) {
+            const double gx = w.slope[n][0], gy = w.slope[n][1], hoop = w.value[n] * w.per_radius;
+            const std::size_t at = grid.layout().index(node(n)[0], node(n)[1]);
+            internal.c[0][at] -= w.volume * (s[0] * gx + s[3] * gy + s[2] * hoop);
+            internal.c[1][at] -= w.volume * (s[3] * gx + s[1] * gy);
+        }
+        for (int m = 0; m < w.functions; ++m) { // columns: displacement of node m
+            const double gx = w.slope[m][0], gy = w.slope[m][1], hoop = w.value[m] * w.per_radius;
+            double px[5], py[5];
+            for (int k = 0; k < 5; ++k) {
+                px[k] = w.volume * (a[k][0] * gx + a[k][1] * gy + a[k][4] * hoop);
+                py[k] = w.volume * (a[k][2] * gx + a[k][3] * gy);
+            }
+            for (int n = 0; n < w.functions; ++n) {
+                const double x = w.slope[n][0], y = w.slope[n][1], h = w.value[n] * w.per_radius;
+                stiffness.add(node(n), node(m),
+                              {{px[0] * x + px[1] * y + px[4] * h, py[0] * x + py[1] * y + py[4] * h},
+                               {px[2] * x + px[3] * y, py[2] * x + py[3] * y}});
+            }
+        }
+    }
+}
+
+} // namespace gault::core

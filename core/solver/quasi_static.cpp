@@ -1,0 +1,189 @@
+#include "core/solver/quasi_static.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gault::core {
+namespace {
+
+constexpr int most_iterations = 20, most_halvings = 6;
+constexpr double shortest = 1e-9; // step, over the longest so far
+constexpr double growth = 2.0;
+
+} // namespace
+
+QuasiStaticSolver::QuasiStaticSolver(const Scene& scene, Model& model, int threads)
+    : Solver(scene, model, threads), equilibrium_(model, *motion_), stiffness_(model.grid),
+      du_(model.grid.layout()), du_before_(du_), correction_(du_), wanted_(du_), internal_before_(internal_),
+      traction_before_(du_), allowed_(std::numeric_limits<double>::infinity()) {}
+
+template <class F>
+void QuasiStaticSolver::each_component(F f) const {
+    const NodeLayout& layout = model_.grid.layout();
+    for (int j = 0; j < layout.ny; ++j)
+        for (int i = 0; i < layout.nx; ++i)
+            for (int k = 0; k < 2; ++k)
+                f(stiffness_.row(i, j, k), k, layout.index(i, j));
+}
+
+bool QuasiStaticSolver::step(double dt) {
+    if (!std::isfinite(dt))
+        throw RunError(
+            "the program names no time for its next event, and a quasi-static step has no other length");
+    load_first();
+    start_ = motion_->save();
+    energies_before_ = energies_;
+    internal_before_ = internal_;
+    traction_before_ = traction_;
+    boundaries_.constrain(*motion_, time_ + dt, dt, fixed_, value_);
+    const double ratio = dt_before_ > 0.0 ? dt / dt_before_ : 0.0; // as the last step went on
+    each_component([&](Eigen::Index, int k, std::size_t n) {
+        wanted_.c[k][n] = dt * value_.c[k][n];
+        du_.c[k][n] = ratio * du_before_.c[k][n];
+    });
+    time_ += dt;
+    const Outcome outcome = iterate({time_, dt});
+    if (outcome != Outcome::balanced) {
+        time_ -= dt;
+        return shorten(outcome == Outcome::strained
+                           ? std::clamp(settings_.strain_step / largest_strain_, 1e-6, 0.5)
+                           : fraction_,
+                       dt);
+    }
+    each_component([&](Eigen::Index, int k, std::size_t n) { velocity_.c[k][n] = du_.c[k][n] / dt; });
+    motion_->arrive(du_, dt);
+    account(dt);
+    du_before_ = du_;
+    dt_before_ = dt;
+    allowed_ = dt * std::clamp(settings_.strain_step / largest_strain_, 0.5, growth);
+    least_ = std::max(least_, shortest * dt);
+    ++steps_;
+    return true;
+}
+
+bool QuasiStaticSolver::shorten(double fraction, double dt) {
+    motion_->restore(*start_);
+    internal_ = internal_before_;
+    traction_ = traction_before_;
+    allowed_ = fraction * dt;
+    if (allowed_ < least_ || allowed_ < 1e-12 * (time_ + dt))
+        throw RunError(
+            fmt::format("no equilibrium was found, however short the step{}; the load may exceed what the "
+                        "soil can carry",
+                        reason_.empty() ? "" : " (" + reason_ + ")"));
+    return false;
+}
+
+void QuasiStaticSolver::undo(double fraction) {
+    motion_->restore(*start_);
+    internal_ = internal_before_;
+    traction_ = traction_before_;
+    energies_ = energies_before_;
+    time_ -= dt_before_;
+    allowed_ = fraction * dt_before_;
+    --steps_;
+}
+
+QuasiStaticSolver::Outcome QuasiStaticSolver::evaluate(const Moment& moment) {
+    // Before anything is known of the length of a step, it may be far too long: look, do not stop.
+    const double limit = steps_ == 0 && iterations_ == 0 ? HUGE_VAL : 4.0 * settings_.strain_step;
+    const Equilibrium::Answer answer =
+        equilibrium_.evaluate(*start_, du_, moment, limit, internal_, stiffness_);
+    largest_strain_ = answer.largest_strain;
+    if (!answer.found) {
+        fraction_ = answer.fraction;
+        reason_ = answer.reason;
+        return answer.reason.empty() && answer.largest_strain > limit ? Outcome::strained : Outcome::diverged;
+    }
+    motion_->attempt(*start_, du_);
+    each_component([&](Eigen::Index, int k, std::size_t n) { velocity_.c[k][n] = du_.c[k][n] / moment.dt; });
+    boundaries_.load(*motion_, moment.time, moment.dt, velocity_, traction_, &stiffness_);
+    return Outcome::balanced;
+}
+
+double QuasiStaticSolver::unbalanced() const {
+    double free = 0.0, all = 0.0, left = 0.0, way = 0.0;
+    each_component([&](Eigen::Index, int k, std::size_t n) {
+        const double force = internal_.c[k][n] + traction_.c[k][n] + weight(k, n);
+        all += internal_.c[k][n] * internal_.c[k][n] + traction_.c[k][n] * traction_.c[k][n];
+        way += wanted_.c[k][n] * wanted_.c[k][n];
+        if (fixed_.c[k][n] == 0.0)
+            free += force * force;
+        else
+            left += std::pow(wanted_.c[k][n] - du_.c[k][n], 2);
+    });
+    return std::max(all > 0.0 ? std::sqrt(free / all) : 0.0,
+                    way > 0.0 ? std::sqrt(left / way) : std::sqrt(left));
+}
+
+QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
+    fraction_ = 0.25;
+    reason_ = "Newton's method did not converge";
+    Outcome outcome = evaluate(moment);
+    if (outcome != Outcome::balanced) return outcome;
+    double error = unbalanced();
+    for (int n = 0; n < most_iterations; ++n) {
+        if (error <= settings_.tolerance) return Outcome::balanced;
+        correct();
+        ++iterations_;
+        const double before = error;
+        const VectorField from = du_;
+        double share = 1.0;
+        for (int halving = 0;; ++halving, share *= 0.5) {
+            for (int k = 0; k < 2; ++k)
+                for (std::size_t q = 0; q < du_.c[k].size(); ++q)
+                    du_.c[k][q] = from.c[k][q] + share * correction_.c[k][q];
+            outcome = evaluate(moment);
+            if (outcome == Outcome::diverged || halving == most_halvings) return Outcome::diverged;
+            if (outcome == Outcome::strained) return outcome;
+            error = unbalanced();
+            if (n == 0 || error < before || error <= settings_.tolerance) break;
+        }
+        if (steps_ == 0 && n == 0 && largest_strain_ > settings_.strain_step) return Outcome::strained;
+    }
+    return Outcome::diverged;
+}
+
+// One Newton correction. Fixed components go where they are wanted; what nothing supports stays.
+void QuasiStaticSolver::correct() {
+    Stiffness::Matrix& matrix = stiffness_.matrix();
+    Eigen::VectorXd right(stiffness_.size());
+    std::vector<char> held(static_cast<std::size_t>(stiffness_.size()));
+    double scale = 0.0;
+    each_component([&](Eigen::Index row, int k, std::size_t n) {
+        const double diagonal = matrix.coeff(row, row);
+        scale = std::max(scale, std::abs(diagonal));
+        held[static_cast<std::size_t>(row)] = fixed_.c[k][n] != 0.0 || diagonal == 0.0;
+    });
+    for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+        for (Stiffness::Matrix::InnerIterator entry(matrix, column); entry; ++entry)
+            if (held[static_cast<std::size_t>(entry.row())])
+                entry.valueRef() = entry.row() == column ? scale : 0.0;
+    each_component([&](Eigen::Index row, int k, std::size_t n) {
+        const bool fixed = fixed_.c[k][n] != 0.0;
+        right[row] = fixed ? scale * (wanted_.c[k][n] - du_.c[k][n])
+                     : held[static_cast<std::size_t>(row)]
+                         ? 0.0
+                         : internal_.c[k][n] + traction_.c[k][n] + weight(k, n);
+    });
+    if (!analysed_) factors_.analyzePattern(matrix);
+    analysed_ = true;
+    factors_.factorize(matrix);
+    const Eigen::VectorXd solution = factors_.solve(right);
+    each_component([&](Eigen::Index row, int k, std::size_t n) { correction_.c[k][n] = solution[row]; });
+}
+
+void QuasiStaticSolver::account(double) {
+    each_component([&](Eigen::Index, int k, std::size_t n) {
+        const double way = du_.c[k][n], inner = 0.5 * (internal_before_.c[k][n] + internal_.c[k][n]);
+        const double outer = 0.5 * (traction_before_.c[k][n] + traction_.c[k][n]) + weight(k, n);
+        energies_.internal -= inner * way;
+        energies_.straining -= inner * way;
+        energies_.external += (fixed_.c[k][n] == 0.0 ? outer : -inner) * way;
+    });
+}
+
+} // namespace gault::core

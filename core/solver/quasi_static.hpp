@@ -1,0 +1,50 @@
+// The quasi-static solver: equilibrium at the end of every step by Newton's method, steps as long as the
+// strain allows.
+#pragma once
+#include "core/solver/equilibrium.hpp"
+#include "core/solver/solver.hpp"
+
+#include <Eigen/UmfPackSupport>
+
+namespace gault::core {
+
+class QuasiStaticSolver final : public Solver {
+  public:
+    QuasiStaticSolver(const Scene& scene, Model& model, int threads);
+
+    double allowed_step() override { return allowed_; }
+    bool step(double dt) override;
+    bool repeatable() const override { return true; }
+    void undo(double fraction) override;
+    int64_t iterations() const override { return iterations_; }
+    int64_t updates() const override { return equilibrium_.updates(); }
+
+  private:
+    enum class Outcome { balanced, strained, diverged };
+    Outcome iterate(const Moment& moment);
+    Outcome evaluate(const Moment& moment);
+    double unbalanced()
+        const; // norm of the forces on free components over the largest norm of forces, or the way left
+    void correct();
+    bool shorten(double fraction, double dt);
+    void account(double dt);
+    double inertia(int, std::size_t) const override { return 0.0; }
+    template <class F>
+    void each_component(F f) const; // f(row of the matrix, component, node)
+
+    Equilibrium equilibrium_;
+    Stiffness stiffness_;
+    Eigen::UmfPackLU<Stiffness::Matrix> factors_;
+    bool analysed_ = false;
+    VectorField du_, du_before_, correction_,
+        wanted_; // displacement of the step, of the one before, m; at fixed components
+    VectorField internal_before_, traction_before_;
+    std::unique_ptr<Motion::State> start_;
+    Energies energies_before_;
+    double allowed_, dt_before_ = 0.0, least_ = 0.0, largest_strain_ = 0.0;
+    double fraction_ = 0.5; // of the step, after one that failed
+    std::string reason_;    // why it failed
+    int64_t iterations_ = 0;
+};
+
+} // namespace gault::core
