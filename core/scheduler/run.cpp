@@ -62,9 +62,11 @@ class Run {
     std::vector<ColumnInfo> columns() const;
     Provenance provenance() const;
     double step_length(double next);
+    double share_to_frame(double before) const;
+    Program::Answer take_step(const Program::Answer& answer);
     void row();
     void frames_due(bool last);
-    double measured(const std::string& name) const;
+    double measured(const std::string& name, double since = 0.0) const;
     void write_frame();
     void summary(const char* status, const std::string& message);
     void fail(const std::string& message); // what was written stays, with the reason
@@ -84,6 +86,7 @@ class Run {
     Verification verification_;
     ResultWriter writer_;
     std::vector<Crossing> frames_wanted_;
+    double frame_rate_ = 0.0; // of the measure that frames wait for
     int64_t frame_step_ = -1, frames_ = 0;
     double stepping_ = 0.0; // s
     nlohmann::json reference_, derived_;
@@ -132,11 +135,30 @@ Provenance Run::provenance() const {
              {"plugins", plugins}}};
 }
 
-// Ends exactly at the next event, without a last crumb of a step.
+// Ends exactly at the next event, without a last crumb of a step; where steps are long, at the next frame
+// too.
 double Run::step_length(double next) {
-    const double allowed = solver_->allowed_step(), left = next - solver_->time();
+    const double allowed = solver_->allowed_step();
+    double left = next - solver_->time();
+    if (solver_->repeatable() && frame_rate_ != 0.0)
+        for (const Crossing& frame : frames_wanted_) {
+            const double ahead = (frame.target() - measured(scene_.frames.measure)) / frame_rate_;
+            if (!frame.done() && ahead > 1e-6 * allowed) left = std::min(left, ahead);
+        }
     if (left <= 0.0 || left > 2.0 * allowed) return allowed;
     return left > allowed ? 0.5 * left : left;
+}
+
+// The share of the last step after which a frame was due, 1 if none was passed.
+double Run::share_to_frame(double before) const {
+    double share = 1.0;
+    for (const Crossing& frame : frames_wanted_) {
+        const double now = measured(scene_.frames.measure), target = frame.target();
+        if (frame.done() || (before - target) * (now - target) >= 0.0) continue;
+        if (std::abs(now - target) > 1e-7 * std::abs(target))
+            share = std::min(share, (target - before) / (now - before));
+    }
+    return share > 1e-6 ? share : 1.0;
 }
 
 void Run::row() {
@@ -149,8 +171,9 @@ void Run::row() {
     writer_.row(values);
 }
 
-double Run::measured(const std::string& name) const {
-    if (name == "time") return solver_->time();
+// The record of the program's last call; `since` shifts the time to that of the call before.
+double Run::measured(const std::string& name, double since) const {
+    if (name == "time") return solver_->time() + since;
     return program_.record()[program_.column(name).value()];
 }
 
@@ -276,6 +299,28 @@ void Run::report() const {
     log::info("results in {}", writer_.folder().string());
 }
 
+// One step, or none where it has to be repeated with another length.
+Program::Answer Run::take_step(const Program::Answer& answer) {
+    const double dt = step_length(answer.next);
+    if (!solver_->step(dt)) return program_.repeat(solver_->allowed_step());
+    const bool watch = solver_->repeatable() && !frames_wanted_.empty();
+    const double before = watch ? measured(scene_.frames.measure, -dt) : 0.0;
+    Program::Answer next = program_.advance(dt, solver_->allowed_step());
+    if (!next.repeat && watch) {
+        frame_rate_ = (measured(scene_.frames.measure) - before) / dt;
+        next.fraction = share_to_frame(before);
+        next.repeat = next.fraction < 1.0;
+        if (next.repeat) program_.withdraw();
+    }
+    if (next.repeat) {
+        solver_->undo(next.fraction);
+        return program_.repeat(solver_->allowed_step());
+    }
+    if (next.emit) row();
+    frames_due(false);
+    return next;
+}
+
 Outcome Run::go() {
     for (const std::string& caution : cautions(scene_))
         log::warn("{}", caution);
@@ -287,19 +332,7 @@ Outcome Run::go() {
         frames_due(false);
         const auto stepping = std::chrono::steady_clock::now();
         while (!answer.done && !interrupted) {
-            const double dt = step_length(answer.next);
-            if (!solver_->step(dt)) {
-                answer = program_.repeat(solver_->allowed_step());
-                continue;
-            }
-            answer = program_.advance(dt, solver_->allowed_step());
-            if (answer.repeat) {
-                solver_->undo(answer.fraction);
-                answer = program_.repeat(solver_->allowed_step());
-                continue;
-            }
-            if (answer.emit) row();
-            frames_due(false);
+            answer = take_step(answer);
             if (progress.due(solver_->steps())) {
                 const auto& shown = program_.columns();
                 progress.show(

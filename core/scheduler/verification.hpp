@@ -18,6 +18,7 @@ class Crossing {
   public:
     explicit Crossing(double target) : target_(target) {}
     double target() const { return target_; }
+    bool done() const { return done_; }
     bool reached(double now); // true once
 
   private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_iterations = 20, most_halvings = 6;
 constexpr double shortest = 1e-9; // step, over the longest so far
-constexpr double growth = 2.0;
+constexpr double growth = 10.0;   // of a step over the one before
 
 } // namespace
 
