@@ -64,7 +64,7 @@ bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int 
     const double g[4] = {f[0] + h[0], f[1] + h[1], f[2] + h[2], f[3] + h[3]};
     const double det = g[0] * g[3] - g[1] * g[2], det_old = f[0] * f[3] - f[1] * f[2];
     const double radius = w.site.start_radius + move;
-    if (!(det > 0.0) || !(radius > 0.0)) return false;
+    if (!(det > 0.0) || (grid.axisymmetric() && !(radius > 0.0))) return false;
     const double step[4] = {(g[0] * f[3] - g[1] * f[2]) / det_old, (g[1] * f[0] - g[0] * f[1]) / det_old,
                             (g[2] * f[3] - g[3] * f[2]) / det_old, (g[3] * f[0] - g[2] * f[1]) / det_old};
     w.strain = LogStrain(step[0], step[1], step[2], step[3]);

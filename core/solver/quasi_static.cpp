@@ -10,7 +10,7 @@ namespace gault::core {
 namespace {
 
 constexpr int most_iterations = 20, most_halvings = 6;
-constexpr double shortest = 1e-9; // step, over the longest so far
+constexpr double shortest = 1e-9; // step, over the longest tried
 constexpr double growth = 10.0;   // of a step over the one before
 
 } // namespace
@@ -34,6 +34,7 @@ bool QuasiStaticSolver::step(double dt) {
         throw RunError(
             "the program names no time for its next event, and a quasi-static step has no other length");
     load_first();
+    least_ = std::max(least_, shortest * dt);
     start_ = motion_->save();
     energies_before_ = energies_;
     internal_before_ = internal_;
@@ -59,7 +60,6 @@ bool QuasiStaticSolver::step(double dt) {
     du_before_ = du_;
     dt_before_ = dt;
     allowed_ = dt * std::clamp(settings_.strain_step / largest_strain_, 0.5, growth);
-    least_ = std::max(least_, shortest * dt);
     ++steps_;
     return true;
 }
@@ -69,7 +69,7 @@ bool QuasiStaticSolver::shorten(double fraction, double dt) {
     internal_ = internal_before_;
     traction_ = traction_before_;
     allowed_ = fraction * dt;
-    if (allowed_ < least_ || allowed_ < 1e-12 * (time_ + dt))
+    if (allowed_ < least_)
         throw RunError(
             fmt::format("no equilibrium was found, however short the step{}; the load may exceed what the "
                         "soil can carry",
@@ -125,6 +125,7 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
     Outcome outcome = evaluate(moment);
     if (outcome != Outcome::balanced) return outcome;
     double error = unbalanced();
+    residuals_ = {error};
     for (int n = 0; n < most_iterations; ++n) {
         if (error <= settings_.tolerance) return Outcome::balanced;
         correct();
@@ -142,6 +143,7 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
             error = unbalanced();
             if (n == 0 || error < before || error <= settings_.tolerance) break;
         }
+        residuals_.push_back(error);
         if (steps_ == 0 && n == 0 && largest_strain_ > settings_.strain_step) return Outcome::strained;
     }
     return Outcome::diverged;

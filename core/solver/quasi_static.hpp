@@ -17,6 +17,8 @@ class QuasiStaticSolver final : public Solver {
     bool repeatable() const override { return true; }
     void undo(double fraction) override;
     int64_t iterations() const override { return iterations_; }
+    // Of the last step, before each iteration and at the end: forces out of balance over all forces.
+    const std::vector<double>& residuals() const { return residuals_; }
     int64_t updates() const override { return equilibrium_.updates(); }
 
   private:
@@ -45,6 +47,7 @@ class QuasiStaticSolver final : public Solver {
     double fraction_ = 0.5; // of the step, after one that failed
     std::string reason_;    // why it failed
     int64_t iterations_ = 0;
+    std::vector<double> residuals_;
 };
 
 } // namespace gault::core

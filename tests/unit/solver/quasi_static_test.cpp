@@ -1,0 +1,246 @@
+#include "core/solver/quasi_static.hpp"
+#include "small_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gault::core::test {
+namespace {
+
+constexpr double lame = 3e6, shear = 2e6, density = 1600.0; // Pa, kg/m^3
+
+struct Use {
+    Symmetry symmetry;
+    Frame frame;
+    Basis basis;
+    const char* name;
+};
+
+Shape shape(const Use& use) {
+    Shape s{use.symmetry, use.frame, use.basis, {1.0, 0.0}, {2.0, 1.0}};
+    if (use.symmetry == Symmetry::radial) s.axes[1] = {1, 1.0}, s.per_cell = 3;
+    return s;
+}
+
+class Trial : public testing::TestWithParam<Use> {};
+INSTANTIATE_TEST_SUITE_P(
+    Everywhere, Trial,
+    testing::Values(Use{Symmetry::plane_strain, Frame::total, Basis::quadratic, "PlaneTotal"},
+                    Use{Symmetry::plane_strain, Frame::updated, Basis::linear, "PlaneUpdatedLinear"},
+                    Use{Symmetry::axisymmetric, Frame::total, Basis::linear, "RingTotalLinear"},
+                    Use{Symmetry::axisymmetric, Frame::updated, Basis::quadratic, "RingUpdated"},
+                    Use{Symmetry::radial, Frame::total, Basis::quadratic, "RadialTotal"},
+                    Use{Symmetry::radial, Frame::updated, Basis::linear, "RadialUpdatedLinear"}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+// An initial stress that is not isotropic, so that its rotation matters.
+void prestress(Body& body) {
+    for (Points& points : body.model.points)
+        points.each_point([&](std::size_t slot) {
+            const double stress[6] = {-9e5, -4e5, -6e5, 2e5, 0.0, 0.0};
+            for (int k = 0; k < 6; ++k)
+                points.columns().stress[k][slot] = stress[k];
+        });
+}
+
+VectorField shaken(const NodeLayout& layout, double size, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(-size, size);
+    VectorField u(layout);
+    for (int j = 0; j < layout.ny; ++j)
+        for (int i = 0; i < layout.nx; ++i)
+            for (int k = 0; k < 2; ++k)
+                u.c[k][layout.index(i, j)] = layout.ny == 1 && k == 1 ? 0.0 : any(random);
+    return u;
+}
+
+TEST_P(Trial, StiffnessIsTheDerivativeOfTheForces) {
+    TestMaterial soil(lame, shear);
+    SmallScene s{shape(GetParam())};
+    s.add(soil, density);
+    s.press({0, 3}, 5e5);
+    Body body(s.scene);
+    prestress(body);
+    Boundaries boundaries(s.scene, *body.motion, body.model.behind(s.scene));
+    Equilibrium equilibrium(body.model, *body.motion);
+    Stiffness stiffness(body.model.grid), ignored(body.model.grid);
+    const NodeLayout& layout = body.layout();
+    const VectorField still(layout);
+    const auto start = body.motion->save();
+    VectorField du = shaken(layout, 0.02, 1);
+    const auto forces = [&](const VectorField& u, Stiffness& k) {
+        VectorField internal(layout), external(layout);
+        EXPECT_TRUE(equilibrium.evaluate(*start, u, {1.0, 1.0}, 1.0, internal, k).found);
+        body.motion->attempt(*start, u);
+        boundaries.load(*body.motion, 1.0, 1.0, still, external, &k);
+        for (int k2 = 0; k2 < 2; ++k2)
+            for (std::size_t n = 0; n < internal.c[k2].size(); ++n)
+                internal.c[k2][n] += external.c[k2][n];
+        return internal;
+    };
+    forces(du, stiffness);
+    const double h = 1e-6;
+    for (int j = 0; j < layout.ny; ++j)
+        for (int i = 0; i < layout.nx; ++i)
+            for (int k = 0; k < (layout.ny == 1 ? 1 : 2); ++k) {
+                const std::size_t n = layout.index(i, j);
+                VectorField up(du), down(du);
+                up.c[k][n] += h;
+                down.c[k][n] -= h;
+                const VectorField after = forces(up, ignored), before = forces(down, ignored);
+                for (int b = 0; b < layout.ny; ++b)
+                    for (int a = 0; a < layout.nx; ++a)
+                        for (int m = 0; m < 2; ++m) {
+                            const std::size_t at = layout.index(a, b);
+                            const double slope = (before.c[m][at] - after.c[m][at]) / (2.0 * h);
+                            const double found =
+                                stiffness.matrix().coeff(stiffness.row(a, b, m), stiffness.row(i, j, k));
+                            ASSERT_NEAR(found, slope, 1e-6 * (lame + 2.0 * shear) * 10.0);
+                        }
+            }
+}
+
+void expect_turned_stress(Frame frame, Basis basis) {
+    TestMaterial soil(lame, shear);
+    SmallScene s{shape({Symmetry::plane_strain, frame, basis, ""})};
+    s.add(soil, density);
+    Body body(s.scene);
+    prestress(body);
+    Equilibrium equilibrium(body.model, *body.motion);
+    Stiffness stiffness(body.model.grid);
+    VectorField internal(body.layout());
+    const double c = std::cos(1.3), sine = std::sin(1.3);
+    const VectorField du = body.field([&](double x, double y) {
+        return std::array<double, 2>{(c - 1.0) * x - sine * y, sine * x + (c - 1.0) * y};
+    });
+    const auto start = body.motion->save();
+    ASSERT_TRUE(equilibrium.evaluate(*start, du, {1.0, 1.0}, 1.0, internal, stiffness).found);
+    const Points& points = body.model.points[0];
+    points.each_point([&](std::size_t slot) {
+        const auto& stress = points.columns().stress;
+        ASSERT_NEAR(stress[0][slot], c * c * -9e5 - 2.0 * c * sine * 2e5 + sine * sine * -4e5, 1e-4);
+        ASSERT_NEAR(stress[1][slot], sine * sine * -9e5 + 2.0 * c * sine * 2e5 + c * c * -4e5, 1e-4);
+        ASSERT_NEAR(stress[2][slot], -6e5, 1e-4);
+        ASSERT_NEAR(stress[3][slot], c * sine * (-9e5 + 4e5) + (c * c - sine * sine) * 2e5, 1e-4);
+    });
+}
+
+TEST(Equilibrium, TurnsTheStressWithABodyThatTurns) {
+    expect_turned_stress(Frame::total, Basis::quadratic);
+    expect_turned_stress(Frame::updated, Basis::linear);
+}
+
+// A block between rollers whose top goes down by a third.
+struct Squeezed {
+    TestMaterial soil{lame, shear};
+    TestBoundary top;
+    SmallScene s;
+    std::optional<Model> model;
+    std::optional<QuasiStaticSolver> solver;
+
+    explicit Squeezed(Frame frame, double strain_step = 1.0)
+        : s(shape({Symmetry::plane_strain, frame, Basis::quadratic, ""})) {
+        s.add(soil, density);
+        top.constrain = [](gault_nodes& nodes) {
+            for (int64_t i = 0; i < nodes.count; ++i) {
+                nodes.fixed[1][i] = 1.0;
+                nodes.velocity[1][i] = -1.0 / 3.0;
+            }
+        };
+        s.roll({0, 1, 2});
+        s.add(top, {3});
+        s.scene.solver.strain_step = strain_step;
+        s.scene.solver.tolerance = 1e-12;
+        model.emplace(build_model(s.scene));
+        solver.emplace(s.scene, *model, 1);
+    }
+    double stress() const { return model->points[0].columns().stress[1][0]; }
+};
+
+TEST(QuasiStatic, FindsTheLogarithmicStrainInOneStep) {
+    for (const Frame frame : {Frame::total, Frame::updated}) {
+        Squeezed block(frame);
+        ASSERT_TRUE(block.solver->step(1.0));
+        EXPECT_NEAR(block.stress(), (lame + 2.0 * shear) * std::log(2.0 / 3.0), 1e-2);
+        EXPECT_NEAR(block.solver->measure("normal_force", high_y).value(), -block.stress(), 1e-2); // 1 m wide
+        EXPECT_LT(block.solver->energies().error(), 1e-12);
+    }
+}
+
+TEST(QuasiStatic, ShortensStepsToTheStrainThatIsWanted) {
+    Squeezed block(Frame::total, 0.01);
+    EXPECT_FALSE(block.solver->step(1.0));
+    EXPECT_EQ(block.solver->time(), 0.0);
+    EXPECT_NEAR(block.solver->allowed_step(), 0.01 / std::log(1.5),
+                1e-6); // of the strain that step would have had
+    ASSERT_TRUE(block.solver->step(block.solver->allowed_step()));
+    EXPECT_NEAR(block.solver->allowed_step(), 0.03, 0.002);
+}
+
+TEST(QuasiStatic, TakesAStepBackToTheBit) {
+    for (const Frame frame : {Frame::total, Frame::updated}) {
+        Squeezed block(frame, 0.05);
+        while (!block.solver->step(std::min(0.1, block.solver->allowed_step()))) {
+        }
+        const double stress = block.stress(), time = block.solver->time(),
+                     energy = block.solver->energies().internal;
+        const double force = block.solver->measure("normal_force", high_y).value();
+        ASSERT_TRUE(block.solver->step(block.solver->allowed_step()));
+        EXPECT_NE(block.stress(), stress);
+        block.solver->undo(0.5);
+        EXPECT_EQ(block.stress(), stress);
+        EXPECT_EQ(block.solver->time(), time);
+        EXPECT_EQ(block.solver->energies().internal, energy);
+        EXPECT_EQ(block.solver->measure("normal_force", high_y).value(), force);
+    }
+}
+
+TEST(QuasiStatic, ConvergesQuadratically) {
+    TestMaterial soil(lame, shear);
+    SmallScene s{shape({Symmetry::axisymmetric, Frame::total, Basis::quadratic, ""})};
+    s.add(soil, density);
+    s.roll({1, 2});
+    s.press({0}, 1.5e6);
+    s.scene.solver.strain_step = 1.0;
+    s.scene.solver.tolerance = 1e-13;
+    Model model = build_model(s.scene);
+    QuasiStaticSolver solver(s.scene, model, 1);
+    ASSERT_TRUE(solver.step(1.0));
+    const std::vector<double>& errors = solver.residuals();
+    ASSERT_GE(errors.size(), 5u);
+    // Above rounding, log(error) doubles.
+    int pairs = 0;
+    for (std::size_t n = 2; n + 1 < errors.size(); ++n)
+        if (errors[n] < 0.03 && errors[n + 1] > 1e-12) {
+            EXPECT_GT(std::log(errors[n + 1]) / std::log(errors[n]), 1.8) << n;
+            ++pairs;
+        }
+    EXPECT_GE(pairs, 2);
+}
+
+TEST(QuasiStatic, SaysSoWhenNoEquilibriumExists) {
+    TestMaterial soil(lame, shear);
+    soil.update = [](gault_points& p, gault_error&) { // carries no stress at all
+        for (int64_t i = 0; i < p.count; ++i)
+            for (int k = 0; k < 6; ++k)
+                p.stress[k][i] = 0.0;
+        if (p.modulus) std::fill_n(p.modulus, p.count, 1.0);
+        if (p.shear_modulus) std::fill_n(p.shear_modulus, p.count, 1.0);
+        return gault_status(GAULT_OK);
+    };
+    SmallScene s{shape({Symmetry::plane_strain, Frame::total, Basis::linear, ""})};
+    s.add(soil, density);
+    s.roll({1, 2});
+    s.press({0}, 1e3);
+    Model model = build_model(s.scene);
+    QuasiStaticSolver solver(s.scene, model, 1);
+    const auto press_on = [&] {
+        for (double dt = 1.0;; dt = solver.allowed_step())
+            solver.step(dt);
+    };
+    EXPECT_THROW(press_on(), RunError);
+}
+
+} // namespace
+} // namespace gault::core::test
