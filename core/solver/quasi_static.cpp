@@ -18,7 +18,7 @@ constexpr double growth = 10.0;   // of a step over the one before
 QuasiStaticSolver::QuasiStaticSolver(const Scene& scene, Model& model, int threads)
     : Solver(scene, model, threads), equilibrium_(model, *motion_), stiffness_(model.grid),
       du_(model.grid.layout()), du_before_(du_), correction_(du_), wanted_(du_), internal_before_(internal_),
-      traction_before_(du_), allowed_(std::numeric_limits<double>::infinity()) {}
+      traction_before_(du_), still_(du_), allowed_(std::numeric_limits<double>::infinity()) {}
 
 template <class F>
 void QuasiStaticSolver::each_component(F f) const {
@@ -99,8 +99,7 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::evaluate(const Moment& moment) {
         return answer.reason.empty() && answer.largest_strain > limit ? Outcome::strained : Outcome::diverged;
     }
     motion_->attempt(*start_, du_);
-    each_component([&](Eigen::Index, int k, std::size_t n) { velocity_.c[k][n] = du_.c[k][n] / moment.dt; });
-    boundaries_.load(*motion_, moment.time, moment.dt, velocity_, traction_, &stiffness_);
+    boundaries_.load(*motion_, moment.time, moment.dt, still_, traction_, &stiffness_);
     return Outcome::balanced;
 }
 

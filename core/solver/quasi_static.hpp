@@ -41,6 +41,7 @@ class QuasiStaticSolver final : public Solver {
     VectorField du_, du_before_, correction_,
         wanted_; // displacement of the step, of the one before, m; at fixed components
     VectorField internal_before_, traction_before_;
+    const VectorField still_; // what loads see as velocity: without inertia there are no waves to absorb
     std::unique_ptr<Motion::State> start_;
     Energies energies_before_;
     double allowed_, dt_before_ = 0.0, least_ = 0.0, largest_strain_ = 0.0;
