@@ -31,8 +31,8 @@ struct FrameAttribute {
 
 struct Provenance {
     std::string scene_yaml;
-    nlohmann::json
-        text; // program version, plugins (name, version, file, sha256), host, command line, thread count
+    // Program version, command line, threads, instruction set, scene and plugins with their hashes.
+    nlohmann::json text;
 };
 
 // One folder of results: history.csv, summary.json, results.h5, results.xdmf (docs/results.md says what they

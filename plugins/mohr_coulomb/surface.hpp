@@ -1,14 +1,16 @@
 // The Mohr-Coulomb surface with its tension cut-off, and every constant of the return to it. Principal
-// stresses s1 >= s2
-// >= s3, tension positive:
+// stresses s1 >= s2 >= s3, tension positive:
 //
-//     shear     F = s1 - kappa s3 - y <= 0      kappa = (1 - sin phi)/(1 + sin phi)   y = 2 c cos phi/(1 +
-//     sin phi) flow      (1, 0, -mu)                     mu    = (1 - sin psi)/(1 + sin psi) tension   s1 <=
-//     t, associated
+//     shear     F = s1 - kappa s3 - y <= 0
+//               kappa = (1 - sin phi)/(1 + sin phi)
+//               y = 2 c cos phi/(1 + sin phi)
+//     flow      (1, 0, -mu)
+//               mu = (1 - sin psi)/(1 + sin psi)
+//     tension   s1 <= t, associated
 //
-// Multipliers are carried as D = 2G gamma, so that lengths are stresses: a plane return is s - D (1 + l, l, l
-// - mu) with l = (lambda/2G)(1 - mu). Nothing divides by sin phi except the apex, which does not exist at phi
-// = 0.
+// Multipliers are carried as D = 2G gamma, so that lengths are stresses: a plane return is
+// s - D (1 + l, l, l - mu) with l = (lambda/2G)(1 - mu).
+// Nothing divides by sin phi except the apex, which does not exist at phi = 0.
 #pragma once
 #include <cmath>
 #include <limits>
@@ -42,11 +44,10 @@ struct Surface {
     double mu, l, poisson;                     // see above
     double per_f;                              // D of a plane return, per unit of F
     double per_f_compression, per_f_extension; // of the edges s1 = s2 and s2 = s3
-    double s2_loss, s3_gain, order_23,
-        strain_gain;                     // plane, per unit of F: -d s2, d s3, mu D, equivalent strain
-    double s3_gain_compression;          // edges, per unit of their F
-    double s3_gain_extension;            //
-    double half_kappa;                   //
+    // Plane, per unit of F: -d s2, d s3, mu D, equivalent strain.
+    double s2_loss, s3_gain, order_23, strain_gain;
+    double s3_gain_compression, s3_gain_extension; // edges, per unit of their F
+    double half_kappa;
     double tension_ratio;                // -d s2/d s1 of a return to the cut-off: lambda/(lambda + 2G)
     double strain_measure, trace_weight; // square of the equivalent strain: measure (D:D - weight (tr D)^2)
     double jacobian[region_count][9];    // d s / d s_trial, row-major, of every region
