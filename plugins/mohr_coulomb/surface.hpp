@@ -12,6 +12,8 @@
 // s - D (1 + l, l, l - mu) with l = (lambda/2G)(1 - mu).
 // Nothing divides by sin phi except the apex, which does not exist at phi = 0.
 #pragma once
+#include <gault/component.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -56,12 +58,12 @@ struct Surface {
 // Least admissible dilation angle, rad: below it an elastic-plastic step of a nearly incompressible soil has
 // no solution.
 inline double least_dilation(const Soil& m) {
-    const double kappa = std::pow(std::tan(0.25 * M_PI - 0.5 * m.friction_angle), 2);
+    const double kappa = std::pow(std::tan(0.25 * gault::pi - 0.5 * m.friction_angle), 2);
     const double stiffness = m.poisson_ratio / (1.0 - 2.0 * m.poisson_ratio) * (1.0 - kappa);
     double most = std::numeric_limits<double>::infinity(); // of mu: both edges must keep a positive hardness
     if (stiffness > kappa) most = (stiffness + 0.5) / (stiffness - kappa);
     if (2.0 * stiffness > kappa) most = std::fmin(most, (stiffness + 1.0) / (stiffness - 0.5 * kappa));
-    return std::isinf(most) ? -0.5 * M_PI : std::asin((1.0 - most) / (1.0 + most));
+    return std::isinf(most) ? -0.5 * gault::pi : std::asin((1.0 - most) / (1.0 + most));
 }
 
 namespace detail {
@@ -99,14 +101,14 @@ inline void fill_jacobians(Surface& k) {
 
 inline Surface surface(const Soil& m) {
     Surface k{};
-    const double nu = m.poisson_ratio, root = std::tan(0.25 * M_PI - 0.5 * m.friction_angle);
+    const double nu = m.poisson_ratio, root = std::tan(0.25 * gault::pi - 0.5 * m.friction_angle);
     const double ratio = nu / (1.0 - 2.0 * nu); // lambda/2G
     k.twice_shear = m.young_modulus / (1.0 + nu);
     k.lame = ratio * k.twice_shear;
     k.poisson = nu;
     k.kappa = m.friction_angle > 0.0 ? root * root : 1.0;
     k.y = 2.0 * m.cohesion * (m.friction_angle > 0.0 ? root : 1.0);
-    k.mu = m.dilation_angle == 0.0 ? 1.0 : std::pow(std::tan(0.25 * M_PI - 0.5 * m.dilation_angle), 2);
+    k.mu = m.dilation_angle == 0.0 ? 1.0 : std::pow(std::tan(0.25 * gault::pi - 0.5 * m.dilation_angle), 2);
     k.l = ratio * (1.0 - k.mu);
 
     const double vertex = m.friction_angle > 0.0 ? m.cohesion / std::tan(m.friction_angle) : HUGE_VAL;
