@@ -44,10 +44,14 @@ struct MaterialUse {
     double density; // kg/m^3, initial
 };
 
+struct CellRange { // cells [first, last) along each axis
+    std::array<int, 2> first, last;
+};
+
 struct Region { // later regions win
     std::string name;
-    int material;                       // index into Scene::materials
-    std::array<double, 2> lower, upper; // m, reference coordinates; a cell belongs if its centre does
+    int material;    // index into Scene::materials
+    CellRange cells; // whose centres it holds; at least one
     Location where;
 };
 
@@ -59,7 +63,6 @@ struct InitialStress {
     double k0 = 1.0;
     double depth = 0.0;   // m, of the top surface below the ground
     bool gravity = false; // the stress follows the weight of the soil
-    Location where;
 };
 
 struct BoundaryUse {
@@ -73,18 +76,16 @@ struct SolverSettings {
     double viscosity = 0.1;        // viscous stress over the elastic stress, both of a step's strain
     double mass_scaling = 1.0;
     StressUpdate stress_update = StressUpdate::usl;
-    Location where;
 };
 
 // Frames are written when `measure` (a column of the history, or "time") reaches each value.
 struct FrameRequest {
     std::string measure; // "" : only the last state
     std::vector<double> values;
-    Location where;
 };
 
 struct CurveReference { // the history against a file of two columns
-    std::string x, y;   // history columns without unit suffix: "cavity_strain", "true_pressure"
+    std::string x, y;   // columns of the history, without the unit
     std::filesystem::path file;
     double from, to; // range of x compared
     // Range of x for the RMS about a cubic fit of the run's own curve.
@@ -99,7 +100,6 @@ struct ProfileReference { // radial profiles of the raw point stress at frames
         std::filesystem::path file;
     };
     std::vector<At> at;
-    Location where;
 };
 
 struct Scene {
@@ -134,7 +134,7 @@ struct Scene {
     };
     std::vector<ObserverUse> observers;
 
-    // What was left to the program and what it took: "frame: total (material stays in place)".
+    // What was left to the program and what it took: "model.frame: total (material stays in place)".
     std::vector<std::string> chosen;
 };
 

@@ -12,8 +12,8 @@
 namespace gault::core {
 
 struct ColumnInfo {
-    std::string name, unit, description; // "true_pressure", "Pa", "compression positive"
-    std::string header() const;          // "true_pressure_Pa"; "cavity_strain" where the unit is "1"
+    std::string name, unit, description; // "force", "N", "Pushing the soil away"
+    std::string header() const;          // "force_N"; "force" where the unit is "1"
 };
 
 // One dataset of a frame. `fill` writes rows x components doubles, row-major, in the order of point identity,
