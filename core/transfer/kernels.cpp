@@ -1,5 +1,5 @@
 // See kernels.hpp. Compiled once per instruction set; only headers whose code stays in that set's namespace
-// may be used.
+// may be used. Eq. n: of [1] in docs/method.md.
 #include "core/transfer/interpolation.hpp"
 
 namespace gault::core::GAULT_ISA {
