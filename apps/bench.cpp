@@ -61,26 +61,25 @@ void throughput(const core::Scene& scene, const Arguments& arguments) {
     }
 }
 
+// From the difference of two sizes, so that what every process has does not count.
+void memory(const core::Scene& scene, const SceneArguments& arguments) {
+    const LoadedScene larger(
+        arguments, {{"grid.cells", fmt::format("[{}, {}]", scene.axes[0].cells, 10 * scene.axes[1].cells)}});
+    const auto points = [](const core::Scene& s) {
+        return static_cast<double>(s.axes[0].cells) * s.axes[1].cells * s.points_per_cell;
+    };
+    const double bytes = core::peak_memory(scene), more_bytes = core::peak_memory(*larger);
+    fmt::print("peak memory {:.1f} MB with {:.0f} points, {:.1f} MB with {:.0f}: {:.0f} bytes a point\n",
+               bytes * 1e-6, points(scene), more_bytes * 1e-6, points(*larger),
+               (more_bytes - bytes) / (points(*larger) - points(scene)));
+}
+
 int bench(const Arguments& arguments) {
-    const auto changes = arguments.scene.overrides();
-    const core::Registry registry(core::plugin_search_path(core::scene_plugins(arguments.scene.file, changes),
-                                                           arguments.scene.plugin_path));
-    const core::Scene scene = core::read_scene(arguments.scene.file, changes, registry);
-    if (arguments.memory) {
-        auto larger = changes;
-        larger.push_back(
-            {"grid.cells", fmt::format("[{}, {}]", scene.axes[0].cells, 10 * scene.axes[1].cells)});
-        const core::Scene big = core::read_scene(arguments.scene.file, larger, registry);
-        const auto points = [](const core::Scene& s) {
-            return static_cast<double>(s.axes[0].cells) * s.axes[1].cells * s.points_per_cell;
-        };
-        const double small_bytes = core::peak_memory(scene), big_bytes = core::peak_memory(big);
-        fmt::print("peak memory {:.1f} MB with {:.0f} points, {:.1f} MB with {:.0f}: {:.0f} bytes a point\n",
-                   small_bytes * 1e-6, points(scene), big_bytes * 1e-6, points(big),
-                   (big_bytes - small_bytes) / (points(big) - points(scene)));
-        return 0;
-    }
-    throughput(scene, arguments);
+    const LoadedScene scene(arguments.scene);
+    if (arguments.memory)
+        memory(*scene, arguments.scene);
+    else
+        throughput(*scene, arguments);
     return 0;
 }
 

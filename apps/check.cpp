@@ -9,11 +9,8 @@ namespace gault::app {
 namespace {
 
 int check(const SceneArguments& arguments) {
-    const auto changes = arguments.overrides();
-    const core::Registry registry(
-        core::plugin_search_path(core::scene_plugins(arguments.file, changes), arguments.plugin_path));
-    const core::Scene scene = core::read_scene(arguments.file, changes, registry);
-    for (const std::string& line : core::check_scene(scene))
+    const LoadedScene scene(arguments);
+    for (const std::string& line : core::check_scene(*scene))
         fmt::print("{}\n", line);
     fmt::print("{}: this scene can run\n", arguments.file);
     return 0;

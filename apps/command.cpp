@@ -3,6 +3,26 @@
 #include <fmt/format.h>
 
 namespace gault::app {
+namespace {
+
+std::vector<core::Override> overrides(const std::vector<std::string>& set) {
+    std::vector<core::Override> all;
+    for (const std::string& text : set) {
+        const auto equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw core::InputError(fmt::format(
+                "--set {}: expected KEY=VALUE, e.g. --set materials.sand.friction_angle='46 deg'", text));
+        all.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    return all;
+}
+
+std::vector<core::Override> joined(std::vector<core::Override> all, const std::vector<core::Override>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+} // namespace
 
 void SceneArguments::declare(CLI::App& options) {
     options.add_option("scene", file, "The scene, a YAML file")->required()->type_name("FILE");
@@ -14,17 +34,11 @@ void SceneArguments::declare(CLI::App& options) {
     declare_plugin_path(options, plugin_path);
 }
 
-std::vector<core::Override> SceneArguments::overrides() const {
-    std::vector<core::Override> all;
-    for (const std::string& text : set) {
-        const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw core::InputError(fmt::format(
-                "--set {}: expected KEY=VALUE, e.g. --set materials.sand.friction_angle='46 deg'", text));
-        all.push_back({text.substr(0, equals), text.substr(equals + 1)});
-    }
-    return all;
-}
+LoadedScene::LoadedScene(const SceneArguments& arguments, const std::vector<core::Override>& more)
+    : changes_(joined(overrides(arguments.set), more)),
+      registry_(
+          core::plugin_search_path(core::scene_plugins(arguments.file, changes_), arguments.plugin_path)),
+      scene_(core::read_scene(arguments.file, changes_, registry_)) {}
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path) {
     options

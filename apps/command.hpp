@@ -35,7 +35,20 @@ struct SceneArguments {
     std::vector<std::filesystem::path> plugin_path;
 
     void declare(CLI::App& options);
-    std::vector<core::Override> overrides() const; // InputError: not KEY=VALUE
+};
+
+// A scene as read, with the plugins that it needs.
+class LoadedScene {
+  public:
+    // `more`: overrides beyond those of the command line. Throws InputError.
+    explicit LoadedScene(const SceneArguments& arguments, const std::vector<core::Override>& more = {});
+    const core::Scene& operator*() const { return scene_; }
+    const core::Scene* operator->() const { return &scene_; }
+
+  private:
+    std::vector<core::Override> changes_;
+    core::Registry registry_;
+    core::Scene scene_;
 };
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path);

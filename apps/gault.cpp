@@ -88,7 +88,7 @@ int dispatch(int count, char** words) {
     app.footer(
         "Environment:\n"
         "  GAULT_PLUGIN_PATH  folders or files of plugins, colons between; see `gault list`\n"
-        "  GAULT_ISA          baseline, v3 or v4: the widest instruction set to use\n\n"
+        "  GAULT_ISA          baseline, x86-64-v3 or x86-64-v4: the widest instruction set to use\n\n"
         "Examples:\n"
         "  gault run configs/paper/fahey.yaml -o out/fahey\n"
         "  gault check configs/paper/fahey.yaml\n"

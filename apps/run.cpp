@@ -17,11 +17,8 @@ struct Arguments {
 };
 
 int run(const Arguments& arguments, const std::string& command_line) {
-    const auto changes = arguments.scene.overrides();
-    const core::Registry registry(core::plugin_search_path(core::scene_plugins(arguments.scene.file, changes),
-                                                           arguments.scene.plugin_path));
-    const core::Scene scene = core::read_scene(arguments.scene.file, changes, registry);
-    for (const std::string& line : scene.chosen)
+    const LoadedScene scene(arguments.scene);
+    for (const std::string& line : scene->chosen)
         core::log::debug("{}", line);
     core::RunOptions options;
     options.folder = arguments.output.empty() ? fs::path("out") / fs::path(arguments.scene.file).stem()
@@ -31,7 +28,7 @@ int run(const Arguments& arguments, const std::string& command_line) {
     options.threads = arguments.threads;
     options.command_line = command_line;
     options.program_version = GAULT_VERSION;
-    return core::run_scene(scene, options) == core::Outcome::interrupted ? 130 : 0;
+    return core::run_scene(*scene, options) == core::Outcome::interrupted ? 130 : 0;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Gault needs and that are missing: as root, or with sudo. Arguments: more packages.
+# The scripts name /usr/bin/python3, since Debian's matplotlib and h5py are there; another python3 of the PATH may lack them.
 set -euo pipefail
 
 packages=(build-essential cmake ninja-build pkg-config libeigen3-dev libyaml-cpp-dev libspdlog-dev libfmt-dev

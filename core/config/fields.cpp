@@ -63,6 +63,16 @@ const Node& Fields::require(std::string_view key, std::string_view meaning) cons
     throw InputError(map_.where(), path(key) + " is missing" + sentence(meaning));
 }
 
+Fields Fields::section(std::string_view key, const std::vector<std::string>& keys) const {
+    static const Node absent = [] {
+        Node map;
+        map.kind = NodeKind::map;
+        return map;
+    }();
+    const Node* node = find(key);
+    return Fields(node ? *node : absent, path(key), keys);
+}
+
 double Fields::quantity(std::string_view key, const std::string& unit, const Bounds& bounds) const {
     return read_quantity(require(key), path(key), unit, bounds);
 }

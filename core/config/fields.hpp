@@ -35,6 +35,8 @@ class Fields {
 
     const Node* find(std::string_view key) const; // null where absent; a key without a value is an error
     const Node& require(std::string_view key, std::string_view meaning = "") const;
+    // The map at `key`, without a key where it is absent.
+    Fields section(std::string_view key, const std::vector<std::string>& keys) const;
 
     // `otherwise` where the key is absent
     double quantity(std::string_view key, const std::string& unit, const Bounds& bounds) const; // required

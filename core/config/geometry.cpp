@@ -73,6 +73,18 @@ void note_choice(Scene& scene, const std::string& key, const std::string& value,
     scene.chosen.push_back(key + ": " + value + " (" + reason + ")");
 }
 
+std::size_t choose(Scene& scene, const Fields& fields, std::string_view key,
+                   const std::vector<std::string>& words, std::size_t fallback, const std::string& reason) {
+    const Node* node = fields.find(key);
+    if (is_auto(node)) {
+        note_choice(scene, fields.path(key), words[fallback], reason);
+        return fallback;
+    }
+    std::vector<std::string> allowed{"auto"};
+    allowed.insert(allowed.end(), words.begin(), words.end());
+    return read_choice(*node, fields.path(key), allowed) - 1;
+}
+
 std::array<std::string, 2> axis_names(const Geometry& geometry) {
     return {geometry.kind == "block" ? "x" : "r", "y"};
 }
@@ -102,40 +114,20 @@ void read_geometry(const Source& source, Scene& scene) {
 }
 
 void read_model(const Source& source, Scene& scene) {
-    Node nothing;
-    nothing.kind = NodeKind::map;
-    const Node* node = source.root.find("model");
-    const Fields fields(node ? *node : nothing, "model", {"symmetry", "frame", "solver"});
-    scene.symmetry = scene.geometry.kind == "block" ? Symmetry::plane_strain : Symmetry::axisymmetric;
-    scene.frame = Frame::total;
-    const std::string shape =
-        "the geometry is " + std::string(scene.geometry.kind == "annulus" ? "an " : "a ");
-    if (const Node* symmetry = fields.find("symmetry"); !is_auto(symmetry)) {
-        const auto choice = read_choice(*symmetry, fields.path("symmetry"),
-                                        {"auto", "radial", "axisymmetric", "plane_strain"});
-        scene.symmetry = static_cast<Symmetry>(choice - 1);
-        check_symmetry(*symmetry, scene);
-        if (scene.symmetry == Symmetry::radial) {
-            scene.geometry.lower[1] = 0.0;
-            scene.geometry.upper[1] = 1.0;
-        }
-    } else {
-        note_choice(scene, "symmetry", scene.geometry.kind == "block" ? "plane_strain" : "axisymmetric",
-                    shape + scene.geometry.kind);
+    const Fields fields = source.root.section("model", {"symmetry", "frame", "solver"});
+    const std::string& kind = scene.geometry.kind;
+    scene.symmetry = choose(scene, fields, "symmetry", {"radial", "axisymmetric", "plane_strain"},
+                            kind == "block" ? Symmetry::plane_strain : Symmetry::axisymmetric,
+                            "the geometry is " + std::string(kind == "annulus" ? "an " : "a ") + kind);
+    if (const Node* symmetry = fields.find("symmetry")) check_symmetry(*symmetry, scene);
+    if (scene.symmetry == Symmetry::radial) {
+        scene.geometry.lower[1] = 0.0;
+        scene.geometry.upper[1] = 1.0;
     }
-    if (const Node* frame = fields.find("frame"); !is_auto(frame))
-        scene.frame = read_choice(*frame, fields.path("frame"), {"auto", "total", "updated"}) == 1
-                          ? Frame::total
-                          : Frame::updated;
-    else
-        note_choice(scene, "frame", "total", "material stays in place");
-    if (const Node* solver = fields.find("solver"); !is_auto(solver))
-        scene.solver.kind =
-            read_choice(*solver, fields.path("solver"), {"auto", "explicit", "quasi_static"}) == 2
-                ? SolverKind::quasi_static
-                : SolverKind::explicit_dynamics;
-    else
-        note_choice(scene, "solver", "explicit", "nothing is assumed about inertia");
+    scene.frame =
+        choose(scene, fields, "frame", {"total", "updated"}, Frame::total, "material stays in place");
+    scene.solver.kind = choose(scene, fields, "solver", {"explicit", "quasi_static"},
+                               SolverKind::explicit_dynamics, "nothing is assumed about inertia");
 }
 
 } // namespace gault::core::config

@@ -1,5 +1,7 @@
 #include "core/config/sections.hpp"
+#include "core/grid/axis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -44,10 +46,10 @@ double geometric_ratio(const Location& where, const std::string& path, const Sce
     return std::pow(upper / lower, 1.0 / scene.axes[axis].cells);
 }
 
-void read_ratio(const Fields* grading, const std::string& name, Scene& scene, std::size_t axis) {
+void read_ratio(const Fields& grading, const std::string& name, Scene& scene, std::size_t axis) {
     GridAxis& grid_axis = scene.axes[axis];
-    const Node* node = grading ? grading->find(name) : nullptr;
-    const std::string path = "grid.grading." + name;
+    const Node* node = grading.find(name);
+    const std::string path = grading.path(name);
     if (is_auto(node)) {
         const bool ring = axis == 0 && scene.geometry.kind == "annulus";
         grid_axis.ratio = ring ? geometric_ratio(scene.geometry.where, path, scene, axis) : 1.0;
@@ -68,19 +70,33 @@ void read_ratio(const Fields* grading, const std::string& name, Scene& scene, st
                                      path, described(*node), grid_axis.cells, most_graded));
 }
 
+void read_per_cell(const Fields& fields, Scene& scene) {
+    const bool radial = scene.symmetry == Symmetry::radial;
+    const Node* node = fields.find("per_cell");
+    if (is_auto(node)) {
+        scene.points_per_cell = radial ? 4 : 16;
+        note_choice(scene, "points.per_cell", std::to_string(scene.points_per_cell), "four a direction");
+        return;
+    }
+    const auto count = read_integer(*node, "points.per_cell");
+    const std::vector<std::int64_t> allowed =
+        radial ? std::vector<std::int64_t>{1, 2, 3, 4, 5, 6} : std::vector<std::int64_t>{1, 4, 9, 16, 25, 36};
+    if (std::find(allowed.begin(), allowed.end(), count) == allowed.end())
+        throw InputError(node->where(), fmt::format("points.per_cell is {}; allowed{} {}", described(*node),
+                                                    radial ? " along the radius:" : ": the squares",
+                                                    fmt::join(allowed, ", ")));
+    scene.points_per_cell = static_cast<int>(count);
+}
+
 } // namespace
 
 std::vector<double> cell_centres(const Scene& scene, int axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const auto [cells, ratio] = scene.axes[i];
-    const double length = scene.geometry.upper[i] - scene.geometry.lower[i];
-    const auto node = [&, count = cells, q = ratio](int k) { // as a fraction of the length
-        return std::abs(q - 1.0) < 1e-12 ? static_cast<double>(k) / count
-                                         : std::expm1(k * std::log(q)) / std::expm1(count * std::log(q));
-    };
+    const std::vector<double> knots = Axis::graded(scene.geometry.lower[i], scene.geometry.upper[i],
+                                                   scene.axes[i].cells, scene.axes[i].ratio);
     std::vector<double> centres;
-    for (int k = 0; k < cells; ++k)
-        centres.push_back(scene.geometry.lower[i] + length * 0.5 * (node(k) + node(k + 1)));
+    for (std::size_t k = 1; k < knots.size(); ++k)
+        centres.push_back(0.5 * (knots[k - 1] + knots[k]));
     return centres;
 }
 
@@ -89,49 +105,18 @@ void read_grid(const Source& source, Scene& scene) {
     const Fields fields(source.root.require("grid", "the background grid: {cells: [72, 1]}"), "grid",
                         {"cells", "grading", "basis"});
     read_cells(fields, scene);
-    std::optional<Fields> grading;
-    if (const Node* node = fields.find("grading"))
-        grading.emplace(*node, "grid.grading", std::vector<std::string>{names[0], names[1]});
+    const Fields grading = fields.section("grading", {names[0], names[1]});
     for (std::size_t axis = 0; axis < 2; ++axis)
-        read_ratio(grading ? &*grading : nullptr, names[axis], scene, axis);
-    scene.basis = Basis::quadratic;
-    if (const Node* basis = fields.find("basis"); !is_auto(basis))
-        scene.basis = read_choice(*basis, "grid.basis", {"auto", "linear", "quadratic"}) == 1
-                          ? Basis::linear
-                          : Basis::quadratic;
-    else
-        note_choice(scene, "grid.basis", "quadratic",
-                    "smooth gradients, so no noise where points cross cells");
+        read_ratio(grading, names[axis], scene, axis);
+    scene.basis = choose(scene, fields, "basis", {"linear", "quadratic"}, Basis::quadratic,
+                         "smooth gradients, so no noise where points cross cells");
 }
 
 void read_points(const Source& source, Scene& scene) {
-    Node nothing;
-    nothing.kind = NodeKind::map;
-    const Node* node = source.root.find("points");
-    const Fields fields(node ? *node : nothing, "points", {"per_cell", "placement"});
-    const bool radial = scene.symmetry == Symmetry::radial;
-    scene.points_per_cell = radial ? 4 : 16;
-    if (const Node* per_cell = fields.find("per_cell"); !is_auto(per_cell)) {
-        const auto count = read_integer(*per_cell, "points.per_cell");
-        if (radial && (count < 1 || count > 6))
-            throw InputError(per_cell->where(),
-                             "points.per_cell is " + described(*per_cell) +
-                                 "; in radial symmetry, where they lie along the radius: 1 to 6");
-        if (!radial && count != 1 && count != 4 && count != 9 && count != 16 && count != 25 && count != 36)
-            throw InputError(per_cell->where(), "points.per_cell is " + described(*per_cell) +
-                                                    "; allowed: the squares 1, 4, 9, 16, 25, 36");
-        scene.points_per_cell = static_cast<int>(count);
-    } else {
-        note_choice(scene, "points.per_cell", std::to_string(scene.points_per_cell), "four a direction");
-    }
-    scene.placement = Placement::gauss;
-    if (const Node* placement = fields.find("placement"); !is_auto(placement))
-        scene.placement = read_choice(*placement, "points.placement", {"auto", "uniform", "gauss"}) == 1
-                              ? Placement::uniform
-                              : Placement::gauss;
-    else
-        note_choice(scene, "points.placement", "gauss",
-                    "mass and forces are integrated as surface loads are");
+    const Fields fields = source.root.section("points", {"per_cell", "placement"});
+    read_per_cell(fields, scene);
+    scene.placement = choose(scene, fields, "placement", {"uniform", "gauss"}, Placement::gauss,
+                             "mass and forces are integrated as surface loads are");
 }
 
 } // namespace gault::core::config

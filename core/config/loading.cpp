@@ -77,7 +77,6 @@ void read_gravity(const Source& source, Scene& scene) {
 void read_initial(const Source& source, Scene& scene) {
     const Node* node = source.root.find("initial");
     if (node == nullptr) {
-        scene.initial_stress.where = source.root.where();
         note_choice(scene, "initial.stress", "0 Pa", "nothing is said");
         return;
     }
@@ -85,7 +84,6 @@ void read_initial(const Source& source, Scene& scene) {
     const Node& stress = initial.require("stress", "{isotropic: 90 kPa} or {vertical: 100 kPa, k0: 0.5}");
     const Fields fields(stress, "initial.stress", {"isotropic", "vertical", "k0", "depth"});
     scene.initial_stress = read_stress(fields, scene.gravity[1] != 0.0);
-    scene.initial_stress.where = stress.where();
 }
 
 void read_boundaries(const Source& source, Scene& scene) {
@@ -106,11 +104,17 @@ void read_program(const Source& source, Scene& scene) {
 }
 
 void read_solver(const Source& source, Scene& scene) {
-    const Node* node = source.root.find("solver");
-    scene.solver.where = node ? node->where() : source.root.where();
-    if (node == nullptr) return;
-    const Fields fields(*node, "solver",
-                        {"time_step_factor", "damping", "viscosity", "mass_scaling", "stress_update", "strain_step", "tolerance"});
+    const std::vector<std::string> dynamic = {"time_step_factor", "damping", "viscosity", "mass_scaling",
+                                              "stress_update"},
+                                   quasi_static = {"strain_step", "tolerance"};
+    std::vector<std::string> keys = dynamic;
+    keys.insert(keys.end(), quasi_static.begin(), quasi_static.end());
+    const Fields fields = source.root.section("solver", keys);
+    const bool inertia = scene.solver.kind == SolverKind::explicit_dynamics;
+    for (const std::string& key : inertia ? quasi_static : dynamic)
+        if (fields.find(key))
+            note_choice(scene, fields.path(key), "not used",
+                        inertia ? "the solver is explicit" : "the solver is quasi_static");
     SolverSettings& solver = scene.solver;
     solver.time_step_factor = fields.quantity(
         "time_step_factor", "1", {.min = 0.0, .max = 2.0, .min_open = true}, solver.time_step_factor);
@@ -118,12 +122,12 @@ void read_solver(const Source& source, Scene& scene) {
     solver.damping =
         fields.quantity("damping", "1", {.min = 0.0, .max = 1.0, .max_open = true}, solver.damping);
     solver.strain_step = fields.quantity("strain_step", "1", positive, solver.strain_step);
-    solver.tolerance = fields.quantity("tolerance", "1", {.min = 0.0, .max = 0.1, .min_open = true}, solver.tolerance);
+    solver.tolerance =
+        fields.quantity("tolerance", "1", {.min = 0.0, .max = 0.1, .min_open = true}, solver.tolerance);
     solver.mass_scaling = fields.quantity("mass_scaling", "1", {.min = 1.0}, solver.mass_scaling);
     if (const Node* update = fields.find("stress_update"))
-        solver.stress_update = read_choice(*update, "solver.stress_update", {"usl", "usf"}) == 0
-                                   ? StressUpdate::usl
-                                   : StressUpdate::usf;
+        solver.stress_update =
+            static_cast<StressUpdate>(read_choice(*update, "solver.stress_update", {"usl", "usf"}));
 }
 
 } // namespace gault::core::config

@@ -9,10 +9,6 @@ namespace {
 
 constexpr std::size_t most_regions = 1000;
 
-struct CellRange { // of a region, cells [first, last) along each axis
-    std::array<std::size_t, 2> first, last;
-};
-
 MaterialUse read_material(const Node& node, const std::string& name, const std::string& path,
                           const Registry& registry) {
     require_kind(node, NodeKind::map, path);
@@ -74,13 +70,12 @@ class RegionReader {
     const Node* soil_;
     std::size_t declared_; // materials under `materials`; those of regions follow
     std::array<std::vector<double>, 2> centres_;
-    std::vector<CellRange> ranges_;
     std::size_t copied_ = 0; // nodes of materials that overrides repeat
 
     void read_one(const Node& node, const std::string& path);
     int material_of(const Fields& fields, const std::string& name);
-    void read_extent(const Fields& fields, Region& region);
-    CellRange cells_of(const Region& region) const;
+    CellRange read_cells(const Fields& fields, const std::string& name) const;
+    std::array<double, 2> read_extent(const Fields& fields, std::size_t axis) const;
 };
 
 void RegionReader::read(const Node& regions) {
@@ -104,8 +99,7 @@ void RegionReader::read_one(const Node& node, const std::string& path) {
             throw InputError(name.where(), path + ": the region " + in_quotes(region.name) +
                                                " is there already, at " + other.where.text());
     region.material = material_of(fields, region.name);
-    read_extent(fields, region);
-    ranges_.push_back(cells_of(region));
+    region.cells = read_cells(fields, region.name);
     scene_.regions.push_back(std::move(region));
 }
 
@@ -138,59 +132,54 @@ int RegionReader::material_of(const Fields& fields, const std::string& name) {
     return static_cast<int>(scene_.materials.size()) - 1;
 }
 
-void RegionReader::read_extent(const Fields& fields, Region& region) {
-    const auto axes = axis_names(scene_.geometry);
-    const Geometry& geometry = scene_.geometry;
-    region.lower = geometry.lower;
-    region.upper = geometry.upper;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        const Node* node = fields.find(axes[axis]);
-        if (node == nullptr) continue;
-        const auto range = read_range(*node, fields.path(axes[axis]), "m");
-        if (range[1] <= geometry.lower[axis] || range[0] >= geometry.upper[axis])
-            throw InputError(node->where(),
-                             fmt::format("{} lies outside of the grid, which goes from {:g} m to {:g} m",
-                                         fields.path(axes[axis]), geometry.lower[axis],
-                                         geometry.upper[axis]));
-        region.lower[axis] = range[0];
-        region.upper[axis] = range[1];
-    }
-}
-
-CellRange RegionReader::cells_of(const Region& region) const {
+CellRange RegionReader::read_cells(const Fields& fields, const std::string& name) const {
     CellRange range{};
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const auto& centres = centres_[axis];
-        const auto first = std::lower_bound(centres.begin(), centres.end(), region.lower[axis]);
-        const auto last = std::upper_bound(first, centres.end(), region.upper[axis]);
+        const auto [low, high] = read_extent(fields, axis);
+        const auto first = std::lower_bound(centres.begin(), centres.end(), low);
+        const auto last = std::upper_bound(first, centres.end(), high);
         if (first == last)
             throw InputError(
-                region.where,
+                fields.where(),
                 fmt::format("the region {} takes hold of nothing: no cell has its centre between {:g} m and "
                             "{:g} m along {}; widen it or refine the grid",
-                            in_quotes(region.name), region.lower[axis], region.upper[axis],
-                            axis_names(scene_.geometry)[axis]));
-        range.first[axis] = static_cast<std::size_t>(first - centres.begin());
-        range.last[axis] = static_cast<std::size_t>(last - centres.begin());
+                            in_quotes(name), low, high, axis_names(scene_.geometry)[axis]));
+        range.first[axis] = static_cast<int>(first - centres.begin());
+        range.last[axis] = static_cast<int>(last - centres.begin());
     }
+    return range;
+}
+
+std::array<double, 2> RegionReader::read_extent(const Fields& fields, std::size_t axis) const {
+    const double lower = scene_.geometry.lower[axis], upper = scene_.geometry.upper[axis];
+    const std::string name = axis_names(scene_.geometry)[axis];
+    const Node* node = fields.find(name);
+    if (node == nullptr) return {lower, upper};
+    const auto range = read_range(*node, fields.path(name), "m");
+    if (range[1] <= lower || range[0] >= upper)
+        throw InputError(node->where(),
+                         fmt::format("{} lies outside of the grid, which goes from {:g} m to {:g} m",
+                                     fields.path(name), lower, upper));
     return range;
 }
 
 // Rows between two neighbouring edges of regions are alike: one of each suffices.
 bool RegionReader::covers_all_cells() const {
-    std::vector<std::size_t> rows{0};
-    for (const auto& range : ranges_)
-        for (const std::size_t row : {range.first[1], range.last[1]})
-            if (row < centres_[1].size()) rows.push_back(row);
-    auto by_first = ranges_;
+    std::vector<int> rows{0};
+    std::vector<CellRange> by_first;
+    for (const Region& region : scene_.regions) {
+        by_first.push_back(region.cells);
+        for (const int row : {region.cells.first[1], region.cells.last[1]})
+            if (row < scene_.axes[1].cells) rows.push_back(row);
+    }
     std::sort(by_first.begin(), by_first.end(),
-              [](const auto& a, const auto& b) { return a.first[0] < b.first[0]; });
-    return std::all_of(rows.begin(), rows.end(), [&](std::size_t row) {
-        std::size_t covered = 0;
-        for (const auto& range : by_first)
-            if (range.first[1] <= row && row < range.last[1] && range.first[0] <= covered)
-                covered = std::max(covered, range.last[0]);
-        return covered == centres_[0].size();
+              [](const CellRange& a, const CellRange& b) { return a.first[0] < b.first[0]; });
+    return std::all_of(rows.begin(), rows.end(), [&](int row) {
+        int covered = 0;
+        for (const auto& [first, last] : by_first)
+            if (first[1] <= row && row < last[1] && first[0] <= covered) covered = std::max(covered, last[0]);
+        return covered == scene_.axes[0].cells;
     });
 }
 

@@ -25,7 +25,6 @@ FrameRequest read_frames(const Node& node, const Records& records) {
                                            std::to_string(node.keys.size()) + " measures");
     FrameRequest frames;
     frames.measure = node.keys[0].text;
-    frames.where = node.keys[0].place.location();
     const std::string path = "output.frames." + frames.measure;
     const std::string unit = records.unit(node.keys[0], "output.frames");
     const auto values = one_or_more(node.items[0]);
@@ -79,7 +78,7 @@ ProfileReference read_profile(const Node& node, const std::string& path, const S
     const Node& files =
         require_kind(fields.require("files", "{2.5 %: file.csv, ...}"), NodeKind::map, fields.path("files"));
     if (files.keys.empty()) throw InputError(files.where(), fields.path("files") + " is empty");
-    ProfileReference profile{measure.text, {}, node.where()};
+    ProfileReference profile{measure.text, {}};
     std::vector<double> values;
     for (std::size_t i = 0; i < files.keys.size(); ++i) {
         const Key& key = files.keys[i];
@@ -132,20 +131,14 @@ std::filesystem::path existing_file(const Node& node, const std::string& path,
 }
 
 void read_output(const Source& source, Scene& scene) {
-    const Node* node = source.root.find("output");
-    scene.frames.where = source.root.where();
-    if (node != nullptr)
-        if (const Node* frames = Fields(*node, "output", {"frames"}).find("frames")) {
-            scene.frames = read_frames(*frames, Records(scene.program));
-            return;
-        }
-    note_choice(scene, "output.frames", "the last state", "none are asked for");
+    if (const Node* frames = source.root.section("output", {"frames"}).find("frames"))
+        scene.frames = read_frames(*frames, Records(scene.program));
+    else
+        note_choice(scene, "output.frames", "the last state", "none are asked for");
 }
 
 void read_reference(const Source& source, Scene& scene) {
-    const Node* node = source.root.find("reference");
-    if (node == nullptr) return;
-    const Fields fields(*node, "reference", {"curve", "profiles", "observers"});
+    const Fields fields = source.root.section("reference", {"curve", "profiles", "observers"});
     const Records records(scene.program);
     read_items(fields, "curve", scene.curves, [&](const Node& item, const std::string& path) {
         return read_curve(item, path, source, records);

@@ -12,11 +12,8 @@
 
 namespace gault::core {
 
-enum class Symmetry {
-    radial,
-    axisymmetric,
-    plane_strain
-}; // radial: a metre of height, nothing varies along it
+// Radial: a metre of height, nothing varies along it.
+enum class Symmetry { radial, axisymmetric, plane_strain };
 enum class Frame { total, updated };
 enum class Basis { linear, quadratic };
 enum class Placement { uniform, gauss };
@@ -25,10 +22,10 @@ enum class SolverKind { explicit_dynamics, quasi_static };
 
 // An axis-aligned rectangle in (r, y) or (x, y). Sides in the order low x, high x, low y, high y.
 struct Geometry {
-    std::string kind;                    // annulus | cylinder | block
-    std::array<double, 2> lower, upper;  // m
-    std::array<std::string, 4> surfaces; // annulus: inner outer bottom top; cylinder: axis outer bottom top;
-                                         // block: left right bottom top
+    std::string kind;                   // annulus | cylinder | block
+    std::array<double, 2> lower, upper; // m
+    // annulus: inner outer bottom top; cylinder: axis outer bottom top; block: left right bottom top
+    std::array<std::string, 4> surfaces;
     Location where;
 };
 
@@ -48,22 +45,25 @@ struct MaterialUse {
     double density; // kg/m^3, initial
 };
 
+struct CellRange { // cells [first, last) along each axis
+    std::array<int, 2> first, last;
+};
+
 struct Region { // later regions win
     std::string name;
-    int material;                       // index into Scene::materials
-    std::array<double, 2> lower, upper; // m, reference coordinates; a cell belongs if its centre does
+    int material;    // index into Scene::materials
+    CellRange cells; // whose centres it holds; at least one
     Location where;
 };
 
-struct InitialStress { // compression positive, as written
-    // isotropic, or vertical and k0: horizontal = k0 * vertical; with gravity the vertical stress grows with
-    // depth: vertical(y) = vertical + sum of density * g over the soil between y and the top surface +
-    // density * g * depth
+// Compression positive, as written: isotropic, or vertical and k0, horizontal = k0 * vertical. With gravity
+// the vertical stress grows with depth:
+//     vertical(y) = vertical + density * g * depth + sum of density * g over the soil between y and the top
+struct InitialStress {
     double vertical = 0.0; // Pa, at `depth` above the top surface (a surcharge)
     double k0 = 1.0;
     double depth = 0.0;   // m, of the top surface below the ground
     bool gravity = false; // the stress follows the weight of the soil
-    Location where;
 };
 
 struct BoundaryUse {
@@ -79,26 +79,23 @@ struct SolverSettings {
     // explicit
     double time_step_factor = 0.9; // of the true limit 2 / omega_max
     double damping = 0.0;          // Cundall's local coefficient, 0 <= alpha < 1
-    double viscosity =
-        0.1; // viscous stress of a step's strain, as a share of the elastic stress of that strain
+    double viscosity = 0.1;        // viscous stress over the elastic stress, both of a step's strain
     double mass_scaling = 1.0;
     StressUpdate stress_update = StressUpdate::usl;
-    Location where;
 };
 
 // Frames are written when `measure` (a column of the history, or "time") reaches each value.
 struct FrameRequest {
     std::string measure; // "" : only the last state
     std::vector<double> values;
-    Location where;
 };
 
 struct CurveReference { // the history against a file of two columns
-    std::string x, y;   // history columns without unit suffix: "cavity_strain", "true_pressure"
+    std::string x, y;   // columns of the history, without the unit
     std::filesystem::path file;
     double from, to; // range of x compared
-    std::optional<std::array<double, 2>>
-        noise; // range of x for the RMS about a cubic fit of the run's own curve
+    // Range of x for the RMS about a cubic fit of the run's own curve.
+    std::optional<std::array<double, 2>> noise;
     Location where;
 };
 
@@ -109,7 +106,6 @@ struct ProfileReference { // radial profiles of the raw point stress at frames
         std::filesystem::path file;
     };
     std::vector<At> at;
-    Location where;
 };
 
 struct Scene {
@@ -144,16 +140,15 @@ struct Scene {
     };
     std::vector<ObserverUse> observers;
 
-    std::vector<std::string>
-        chosen; // what was left to the program and what it took: "frame: total (material stays in place)"
+    // What was left to the program and what it took: "model.frame: total (material stays in place)".
+    std::vector<std::string> chosen;
 };
 
 struct Override { // --set KEY=VALUE: dots for maps, numbers for list items
     std::string key, value;
 };
 
-// The `plugins:` of a scene, relative to its folder, read before anything else so that the registry can be
-// made.
+// The `plugins:` of a scene, relative to its folder, read first so that the registry can be made.
 std::vector<std::filesystem::path> scene_plugins(const std::filesystem::path& file,
                                                  const std::vector<Override>& overrides);
 

@@ -25,8 +25,20 @@ void read_solver(const Source& source, Scene& scene);
 void read_output(const Source& source, Scene& scene);
 void read_reference(const Source& source, Scene& scene);
 
-// Notes what was left to the program: "frame: total (material stays in place)".
+// Notes what was left to the program: "model.frame: total (material stays in place)".
 void note_choice(Scene& scene, const std::string& key, const std::string& value, const std::string& reason);
+
+// The place among `words` of the one at `key`; that of `fallback`, noted with the reason, where the scene
+// leaves it to the program.
+std::size_t choose(Scene& scene, const Fields& fields, std::string_view key,
+                   const std::vector<std::string>& words, std::size_t fallback, const std::string& reason);
+
+// The same for an enumeration whose values are in the order of the words.
+template <class Enum>
+Enum choose(Scene& scene, const Fields& fields, std::string_view key, const std::vector<std::string>& words,
+            Enum fallback, const std::string& reason) {
+    return static_cast<Enum>(choose(scene, fields, key, words, static_cast<std::size_t>(fallback), reason));
+}
 
 // "r" or "x", and "y".
 std::array<std::string, 2> axis_names(const Geometry& geometry);

@@ -10,11 +10,11 @@ Axis::Axis(std::vector<double> knots, int degree) : knots_(std::move(knots)), de
 }
 
 std::vector<double> Axis::graded(double lower, double upper, int cells, double ratio) {
+    // ratio^i - 1, which loses nothing where the ratio is near 1
+    const auto excess = [growth = std::log(ratio)](int i) { return std::expm1(i * growth); };
     std::vector<double> knots(cells + 1);
-    const bool uniform = std::abs(ratio - 1.0) < 1e-12;
     for (int i = 0; i <= cells; ++i) {
-        const double fraction =
-            uniform ? double(i) / cells : (std::pow(ratio, i) - 1.0) / (std::pow(ratio, cells) - 1.0);
+        const double fraction = ratio == 1.0 ? double(i) / cells : excess(i) / excess(cells);
         knots[i] = lower + (upper - lower) * fraction;
     }
     knots.back() = upper;

@@ -11,9 +11,9 @@ enum Side { low_x = 0, high_x = 1, low_y = 2, high_y = 3 }; // the order of Geom
 constexpr int normal_axis(int side) {
     return side / 2;
 }
-constexpr double outward(int side) {
+constexpr double outward(int side) { // component of the outward normal
     return side % 2 ? 1.0 : -1.0;
-} // component of the outward normal
+}
 
 // Nodes are stored with a margin of two on every side, so that a stencil needs no special case at the rim.
 // Row j of a field begins, margin included, at the aligned index row_begin(j).

@@ -27,14 +27,14 @@ std::string reason() {
 
 hid_t create(const std::filesystem::path& file) {
     static const bool ready = [] {
-        H5dont_atexit(); // the library's own clean-up crashes on a file whose disk was full; we close every
-                         // file
+        // The library's own clean-up crashes on a file whose disk was full; we close every file.
+        H5dont_atexit();
         return H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) >= 0;
     }();
     (void)ready;
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    std::error_code
-        ignored; // another inode: HDF5 may still hold a file of this name that could not be written
+    // Another inode: HDF5 may still hold a file of this name that could not be written.
+    std::error_code ignored;
     std::filesystem::remove(file, ignored);
     // Nobody else sees a temporary name, and some network file systems cannot lock.
     H5Pset_file_locking(access, false, true);

@@ -34,8 +34,8 @@ HistoryFile::HistoryFile(std::filesystem::path file, const std::vector<ColumnInf
       size_(static_cast<off_t>(std::filesystem::file_size(file_))) {}
 
 void HistoryFile::append(const std::vector<double>& values) {
-    std::string row =
-        fmt::format("{}", fmt::join(values, ",")); // the shortest digits that read back the same
+    // The shortest digits that read back the same.
+    std::string row = fmt::format("{}", fmt::join(values, ","));
     // Blanks fill a page whose rest could not hold the next row: no row then lies on two pages.
     const std::size_t free_in_page = page - static_cast<std::size_t>(size_) % page;
     if (row.size() < free_in_page && free_in_page - row.size() - 1 < longest_row_)

@@ -12,8 +12,8 @@
 namespace gault::core {
 
 struct ColumnInfo {
-    std::string name, unit, description; // "true_pressure", "Pa", "compression positive"
-    std::string header() const;          // "true_pressure_Pa"; "cavity_strain" where the unit is "1"
+    std::string name, unit, description; // "force", "N", "Pushing the soil away"
+    std::string header() const;          // "force_N"; "force" where the unit is "1"
 };
 
 // One dataset of a frame. `fill` writes rows x components doubles, row-major, in the order of point identity,
@@ -31,8 +31,8 @@ struct FrameAttribute {
 
 struct Provenance {
     std::string scene_yaml;
-    nlohmann::json
-        text; // program version, plugins (name, version, file, sha256), host, command line, thread count
+    // Program version, command line, threads, instruction set, scene and plugins with their hashes.
+    nlohmann::json text;
 };
 
 // One folder of results: history.csv, summary.json, results.h5, results.xdmf (docs/results.md says what they

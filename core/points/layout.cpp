@@ -21,7 +21,7 @@ void cut_row(int row, const std::vector<int>& count, const LayoutRequest& reques
             ++column;
             continue;
         }
-        Batch batch{row, column, 0, 0, 0, 0, 0, 0};
+        Batch batch{row, column, 0, 0, 0, 0, 0};
         for (; column < request.columns && batch.pages < request.pages_per_batch; ++column) {
             if (!request.roaming && empty(column)) break;
             batch.pages += pages_for(count[static_cast<std::size_t>(row) * request.columns + column]);
@@ -49,9 +49,7 @@ Layout lay_out(const std::vector<int32_t>& cell, const LayoutRequest& request) {
     for (std::size_t b = 0; b < layout.batches.size(); ++b) {
         Batch& batch = layout.batches[b];
         batch.first_page = page;
-        batch.patch = layout.patch_size;
-        batch.patch_row = batch.columns + request.degree[0];
-        layout.patch_size += static_cast<std::size_t>(batch.patch_row) * (request.degree[1] + 1);
+        batch.patch_row = batch.columns + request.degree;
         layout.page_column.resize(page + batch.capacity, batch.first_column);
         layout.page_live.resize(page + batch.capacity, 0);
         int at = page;

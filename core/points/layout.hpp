@@ -1,7 +1,6 @@
 // Where the points of one material lie in memory: pages of eight slots, each page in one grid cell, pages in
 // batches, each batch in one row of cells.
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,8 +12,7 @@ struct Batch {
     int first_column, columns; // cells that its points may lie in
     int first_page, pages;     // pages in use
     int capacity;              // pages reserved
-    std::size_t patch;         // offset of its patch of nodes, per component, in units of doubles
-    int patch_row;             // nodes in a row of the patch
+    int patch_row;             // nodes in a row of its patch
 };
 
 struct Layout {
@@ -23,13 +21,13 @@ struct Layout {
     std::vector<uint8_t> page_live;         // its points, in the first slots
     std::vector<int32_t> batch_of_cell;     // row * columns + column; -1 where the material has no batch
     std::vector<std::size_t> slot_of_point; // in the order of the cells given
-    std::size_t slots = 0, patch_size = 0;
+    std::size_t slots = 0;
 };
 
 struct LayoutRequest {
-    int columns, rows;         // of cells
-    std::array<int, 2> degree; // of the bases: the size of a patch
-    bool roaming;              // points may enter any cell: batches cover the whole grid and keep spare pages
+    int columns, rows; // of cells
+    int degree;        // of the basis along a row: the length of a patch's rows
+    bool roaming;      // points may enter any cell: batches cover the whole grid and keep spare pages
     int pages_per_batch = 64;
 };
 

@@ -54,8 +54,8 @@ void Points::take_out(std::size_t slot, int batch_index) {
     if (last != slot) copy_slot(last, slot);
     empty_slot(last);
     if (layout_.page_live[page] > 0) return;
-    const std::size_t final =
-        static_cast<std::size_t>(batch.first_page) + --batch.pages; // its place is taken by the last page
+    // The last page takes its place.
+    const std::size_t final = static_cast<std::size_t>(batch.first_page) + --batch.pages;
     if (final == page) return;
     for (int lane = 0; lane < page_slots; ++lane)
         copy_slot(final * page_slots + lane, page * page_slots + lane);

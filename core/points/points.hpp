@@ -25,9 +25,9 @@ struct PointColumns {
     std::array<Column, 5> deformation; // updated frame, where a material wants F: xx xy yx yy zz
 
     template <class F>
-    void each(F f) {
+    void each(F f) { // every column, in use or not
         visit(*this, f);
-    } // every column, in use or not
+    }
     template <class F>
     void each(F f) const {
         visit(*this, f);

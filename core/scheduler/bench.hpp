@@ -9,8 +9,9 @@ struct BenchReport {
     int64_t steps;      // timed ones
     double seconds;     // of the timed steps
     double point_steps; // a second
-    double changing;    // share of the points whose first state changed over the timed steps: for a plastic
-                        // soil, those that returned to the yield surface
+    // Share of the points whose first state changed over the timed steps: for a plastic soil, those that
+    // returned to the yield surface.
+    double changing;
     struct Phase {
         const char* name;
         double share; // of the first thread's time

@@ -14,7 +14,8 @@
 
 namespace gault::core {
 
-struct SoilBehind {                  // a surface, for absorbing and far-field conditions
+// What lies behind a surface, for absorbing and far-field conditions.
+struct SoilBehind {
     double impedance_p, impedance_s; // rho c_p, rho c_s; Pa s/m
     double shear_modulus;            // Pa
     std::array<double, 3> stress;    // initial xx yy xy, tension positive, Pa

@@ -1,4 +1,4 @@
-// The explicit solver: the paper's Section 2.2, step by step, over either motion.
+// The explicit solver, step by step, over either motion: Section 2.2 of the paper, [1] in docs/method.md.
 #pragma once
 #include "core/solver/solver.hpp"
 

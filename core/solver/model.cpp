@@ -52,24 +52,16 @@ Rule uniform_rule(int n) {
     return rule;
 }
 
-std::vector<int> assign_materials(const Scene& scene, const Grid& grid,
-                                  std::vector<std::string>& description) {
-    const int columns = grid.axis(0).cells(), rows = grid.axis(1).cells();
+std::vector<int> assign_materials(const Scene& scene, std::vector<std::string>& description) {
+    const int columns = scene.axes[0].cells, rows = scene.axes[1].cells;
     std::vector<int> material(static_cast<std::size_t>(columns) * rows, scene.base_material);
     for (const Region& region : scene.regions) {
-        int cells = 0;
-        for (int j = 0; j < rows; ++j)
-            for (int i = 0; i < columns; ++i) {
-                const double x = grid.axis(0).origin()[i] + 0.5 * grid.axis(0).length()[i];
-                const double y = grid.axis(1).origin()[j] + 0.5 * grid.axis(1).length()[j];
-                if (x < region.lower[0] || x > region.upper[0] || y < region.lower[1] || y > region.upper[1])
-                    continue;
+        const auto& [first, last] = region.cells;
+        for (int j = first[1]; j < last[1]; ++j)
+            for (int i = first[0]; i < last[0]; ++i)
                 material[static_cast<std::size_t>(j) * columns + i] = region.material;
-                ++cells;
-            }
-        if (cells == 0)
-            throw InputError(region.where, fmt::format("region '{}' holds no cell centre", region.name));
-        description.push_back(fmt::format("region {}: {} cells of '{}'", region.name, cells,
+        description.push_back(fmt::format("region {}: {} cells of '{}'", region.name,
+                                          (last[0] - first[0]) * (last[1] - first[1]),
                                           scene.materials[region.material].name));
     }
     return material;
@@ -133,7 +125,7 @@ Model build_model(const Scene& scene) {
     };
     Model model{Grid(axis(0), axis(1), scene.symmetry != Symmetry::plane_strain), {}, {}, {}, {}};
     const Grid& grid = model.grid;
-    model.material_of_cell = assign_materials(scene, grid, model.description);
+    model.material_of_cell = assign_materials(scene, model.description);
     for (const MaterialUse& use : scene.materials)
         model.materials.emplace_back(use);
 
@@ -188,9 +180,8 @@ Model build_model(const Scene& scene) {
         if (updated && model.materials[m].finite_strain())
             for (int k = 0; k < 5; ++k)
                 s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
-        model.points.emplace_back(
-            std::move(s.columns), s.cell, std::move(s.identity),
-            LayoutRequest{columns, grid.axis(1).cells(), {grid.degree(0), grid.degree(1)}, updated});
+        model.points.emplace_back(std::move(s.columns), s.cell, std::move(s.identity),
+                                  LayoutRequest{columns, grid.axis(1).cells(), grid.degree(0), updated});
         start_material(model.materials[m], model.points[m], view_of(grid));
     }
     return model;

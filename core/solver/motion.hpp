@@ -1,7 +1,7 @@
 // What differs between the two descriptions of motion; everything else of the solver is shared.
-//   total    weights at the reference positions, computed from fixed cell coordinates; the walls are on the
-//   grid for ever updated  points move through the grid (Eq. 16), which is stretched so that its rim stays on
-//   the walls
+//   total    weights at the reference positions, from fixed cell coordinates; walls stay on the grid
+//   updated  points move through the grid (Eq. 16), which is stretched so that its rim stays on the walls
+// Equations with a number are those of [1] in docs/method.md.
 #pragma once
 #include "core/base/team.hpp"
 #include "core/grid/grid.hpp"
@@ -16,8 +16,8 @@
 
 namespace gault::core {
 
-struct PhaseClock {                                                     // seconds spent, by phase
-    double strain = 0, material = 0, force = 0, velocity = 0, sort = 0; // of the first thread
+struct PhaseClock { // seconds that the first thread spent, by phase
+    double strain = 0, material = 0, force = 0, velocity = 0, sort = 0;
     bool on = false;
 };
 
@@ -77,8 +77,8 @@ class Motion {
 
     virtual double kinetic_energy() = 0; // J, of the points, with mass scaling left out
     virtual PointRecord record(int material, std::size_t slot) const = 0;
-    virtual Deformation deformation(int material) const = 0; // in the updated frame only det F is right,
-                                                             // unless the material wants F
+    // In the updated frame only det F is right, unless the material wants F.
+    virtual Deformation deformation(int material) const = 0;
 
     // ---- solvers without inertia: trial displacements of the nodes since the start of a step ----
     struct State { // all that a step changes

@@ -15,8 +15,8 @@ namespace gault::core {
 
 struct Energies { // J, since the start
     double internal = 0.0, external = 0.0, damping = 0.0, kinetic = 0.0;
-    double straining =
-        0.0;              // the part of `internal` that the change of stress did: without the initial stress
+    // The part of `internal` that the change of stress did: without the initial stress.
+    double straining = 0.0;
     double ratio() const; // kinetic over straining, 0 before any work was done
     double error() const; // |kinetic + internal - external - damping| over the largest of them
 };

@@ -85,8 +85,8 @@ double stable_step(Motion& motion, const std::vector<std::array<Column, 2>>& mod
             Eigen::ComputeEigenvectors);
         const Eigen::Index k_top = solver.eigenvalues().size() - 1; // in increasing order
         top = solver.eigenvalues()[k_top];
-        const double residual =
-            beta * std::abs(solver.eigenvectors()(k_top, k_top)); // bounds the error of `top`
+        // Bounds the error of `top`.
+        const double residual = beta * std::abs(solver.eigenvectors()(k_top, k_top));
         if (residual < 1e-3 * top) break;
     }
     return 2.0 * std::sqrt(mass_scaling / top);

@@ -131,8 +131,8 @@ double Surface::mean_displacement() const {
     return total / length;
 }
 
-double
-Surface::enclosed_volume() const { // of the solid of revolution: half the flux of (r, 0) through the surface
+// Of the solid of revolution: half the flux of (r, 0) through the surface.
+double Surface::enclosed_volume() const {
     double total = 0.0;
     for (const Now& now : at_)
         total += 0.5 * now.position[0] * std::abs(now.area[0]);

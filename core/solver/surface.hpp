@@ -15,8 +15,8 @@ class Surface {
     int side() const { return side_; }
     std::size_t size() const { return facets_.size(); } // quadrature points
 
-    void
-    refresh(const Motion& motion); // positions and area vectors now, if anything moved since the last time
+    // Positions and area vectors now, if anything moved since the last time.
+    void refresh(const Motion& motion);
     const std::vector<std::size_t>& nodes() const { return nodes_; } // indices into a nodal field
 
     // Of quadrature point q. The area vector points out of the soil, m^2 (whole ring, or 1 m of plane

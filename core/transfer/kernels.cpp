@@ -1,5 +1,5 @@
 // See kernels.hpp. Compiled once per instruction set; only headers whose code stays in that set's namespace
-// may be used.
+// may be used. Eq. n: of [1] in docs/method.md.
 #include "core/transfer/interpolation.hpp"
 
 namespace gault::core::GAULT_ISA {
@@ -94,9 +94,9 @@ StrainReport total_strain(const GridView& grid, const BatchView& batch, const St
             const Gathered ux = gather(in.displacement_old[0] + node, grid.row, wx, wy);
             const Gathered uy = gather(in.displacement_old[1] + node, grid.row, wx, wy);
             const Pack hxx = dt * vx.dx, hxy = dt * vx.dy, hyx = dt * vy.dx, hyy = dt * vy.dy;
-            const Pack fxx = one + ux.dx, fxy = ux.dy, fyx = uy.dx,
-                       fyy = one + uy.dy; // at the start of the step
-            const Pack gxx = fxx + hxx, gxy = fxy + hxy, gyx = fyx + hyx, gyy = fyy + hyy; // at its end
+            // F at the start of the step, and at its end.
+            const Pack fxx = one + ux.dx, fxy = ux.dy, fyx = uy.dx, fyy = one + uy.dy;
+            const Pack gxx = fxx + hxx, gxy = fxy + hxy, gyx = fyx + hyx, gyy = fyy + hyy;
             const Pack det = gxx * gyy - gxy * gyx;
             const Pack measure = Pack::load(batch.measure + slot);
             const Pack live = select(measure > Pack(0.0), one, 0.0);
@@ -197,8 +197,8 @@ StrainReport updated_strain(const GridView& grid, const BatchView& batch, const 
             const Gathered vx = gather(in.velocity[0] + node, grid.row, wx, wy);
             const Gathered vy = gather(in.velocity[1] + node, grid.row, wx, wy);
             const Pack volume = Pack::load(batch.measure + slot);
-            const Pack live = select(volume > Pack(0.0), one, 0.0),
-                       step = dt * live; // an empty slot keeps what it has
+            // An empty slot keeps what it has.
+            const Pack live = select(volume > Pack(0.0), one, 0.0), step = dt * live;
             const Pack hxx = step * vx.dx, hxy = step * vx.dy, hyx = step * vy.dx, hyy = step * vy.dy;
             const Pack dx = step * vx.value, dy = step * vy.value;
             Pack ratio = (one + hxx) * (one + hyy) - hxy * hyx, hoop = 0.0, stretch = 1.0;

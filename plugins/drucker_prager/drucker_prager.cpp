@@ -15,10 +15,10 @@ struct DruckerPrager { // f = sqrt(J2) + eta p - k, p the mean stress, tension p
         gault::parameter<&Self::cohesion>("cohesion", "c", "Pa", "Cohesion.").at_least(0),
         gault::parameter<&Self::friction_angle>("friction_angle", "phi", "rad", "Of strength.")
             .above(0)
-            .below(1.57),
+            .below(0.5 * gault::pi),
         gault::parameter<&Self::dilation_angle>("dilation_angle", "psi", "rad", "Of flow.")
             .at_least(0)
-            .below(1.57)};
+            .below(0.5 * gault::pi)};
     static constexpr std::array states{
         gault::scalar_state("plastic_strain", "1", "Deviatoric, accumulated.", 0, 0)};
 

@@ -1,4 +1,5 @@
 #include <gault/material.hpp>
+#include <gault/tensor.hpp>
 
 // Isotropic Hooke's law in rate form, tension positive: d stress = lame tr(d strain) 1 + 2 G d strain.
 struct LinearElastic {
@@ -25,11 +26,7 @@ struct LinearElastic {
     }
 
     void update(gault::Point& p) const {
-        const gault::Pack volumetric = lame * (p.strain[0] + p.strain[1] + p.strain[2]);
-        for (int i = 0; i < 6; ++i) {
-            const gault::Pack direct = i < 3 ? volumetric : gault::Pack(0.0);
-            p.stress[i] = p.stress_old[i] + direct + 2.0 * shear * p.strain[i];
-        }
+        p.stress = gault::add_elastic(p.stress_old, p.strain, lame, 2.0 * shear);
         p.modulus = lame + 2.0 * shear;
         p.shear_modulus = shear;
         if (p.wants_tangent()) p.set_elastic_tangent(lame, shear);

@@ -111,11 +111,11 @@ struct Model {
         gault::parameter<&Model::friction_angle>("friction_angle", "phi", "rad",
                                                  "Friction angle; 0 is Tresca.")
             .at_least(0)
-            .below(0.5 * M_PI),
+            .below(0.5 * gault::pi),
         gault::parameter<&Model::dilation_angle>("dilation_angle", "psi", "rad",
                                                  "Dilation angle; negative: the soil contracts as it shears.")
-            .above(-0.5 * M_PI)
-            .below(0.5 * M_PI)
+            .above(-0.5 * gault::pi)
+            .below(0.5 * gault::pi)
             .fallback(0),
         gault::parameter<&Model::tension_strength>(
             "tension_strength", "t", "Pa",
@@ -140,8 +140,8 @@ struct Model {
                           "dilation_angle is %.6g deg; with poisson_ratio %g and friction_angle %.6g deg it "
                           "must be above "
                           "%.6g deg, or the stress has no unique solution",
-                          dilation_angle * 180.0 / M_PI, poisson_ratio, friction_angle * 180.0 / M_PI,
-                          least * 180.0 / M_PI);
+                          dilation_angle * 180.0 / gault::pi, poisson_ratio,
+                          friction_angle * 180.0 / gault::pi, least * 180.0 / gault::pi);
             throw gault::Invalid("dilation_angle", text);
         }
         surface = mohr_coulomb::surface(soil);

@@ -93,10 +93,10 @@ TEST(MohrCoulomb, AccumulatesTheEquivalentPlasticStrain) {
         for (size_t i = 0; i < batch_size; ++i) {
             const Tensor trial = add_elastic(p, b.stress_old[i], b.strain[i]);
             const double expected = std::sqrt(2.0 / 3.0) * norm(compliance(p, minus(trial, b.stress[i])));
-            const double rounding =
-                1e-13 * norm(trial) / p.G(); // the difference of two stresses, squared and rooted
-            const double lost =
-                1e-7 * norm(trial) / p.G() * (p.nu > 0.49); // isotropic parts cancel in the square
+            // The difference of two stresses, squared and rooted.
+            const double rounding = 1e-13 * norm(trial) / p.G();
+            // Isotropic parts cancel in the square.
+            const double lost = 1e-7 * norm(trial) / p.G() * (p.nu > 0.49);
             ASSERT_NEAR(b.plastic_strain[i] - old[i], expected, 1e-12 + 1e-9 * expected + rounding + lost);
         }
     }
@@ -231,8 +231,8 @@ TEST(MohrCoulomb, UsesAShortPathInThePlaneThatAgreesWithTheGeneralOne) {
         Random random;
         Batch plane;
         for (size_t i = 0; i < 40 * batch_size; ++i) {
-            Tensor s =
-                random.tensor(random.magnitude(0, 6)); // turns plane ones to any angle, at times to none
+            // Turns plane ones to any angle, at times to none.
+            Tensor s = random.tensor(random.magnitude(0, 6));
             s[4] = s[5] = 0;
             if (i % 7 == 0) s[3] = 0;
             if (i % 11 == 0) s[1] = s[0];

@@ -92,8 +92,8 @@ GAULT_INLINE Returned return_to_surface(const Surface& k, Pack s1, Pack s2, Pack
     Returned r;
     r.s3 = s3 + f * k.s3_gain;
     r.s2 = s2 - f * k.s2_loss;
-    r.s1 =
-        k.kappa * r.s3 + k.y; // from the surface, not from the trial state: F = 0 at the size of the result
+    // From the surface, not from the trial state: F = 0 at the size of the result.
+    r.s1 = k.kappa * r.s3 + k.y;
     r.plastic_strain = f * k.strain_gain;
     r.region = double{plane};
 

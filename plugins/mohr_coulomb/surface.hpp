@@ -1,15 +1,19 @@
 // The Mohr-Coulomb surface with its tension cut-off, and every constant of the return to it. Principal
-// stresses s1 >= s2
-// >= s3, tension positive:
+// stresses s1 >= s2 >= s3, tension positive:
 //
-//     shear     F = s1 - kappa s3 - y <= 0      kappa = (1 - sin phi)/(1 + sin phi)   y = 2 c cos phi/(1 +
-//     sin phi) flow      (1, 0, -mu)                     mu    = (1 - sin psi)/(1 + sin psi) tension   s1 <=
-//     t, associated
+//     shear     F = s1 - kappa s3 - y <= 0
+//               kappa = (1 - sin phi)/(1 + sin phi)
+//               y = 2 c cos phi/(1 + sin phi)
+//     flow      (1, 0, -mu)
+//               mu = (1 - sin psi)/(1 + sin psi)
+//     tension   s1 <= t, associated
 //
-// Multipliers are carried as D = 2G gamma, so that lengths are stresses: a plane return is s - D (1 + l, l, l
-// - mu) with l = (lambda/2G)(1 - mu). Nothing divides by sin phi except the apex, which does not exist at phi
-// = 0.
+// Multipliers are carried as D = 2G gamma, so that lengths are stresses: a plane return is
+// s - D (1 + l, l, l - mu) with l = (lambda/2G)(1 - mu).
+// Nothing divides by sin phi except the apex, which does not exist at phi = 0.
 #pragma once
+#include <gault/component.hpp>
+
 #include <cmath>
 #include <limits>
 
@@ -42,11 +46,10 @@ struct Surface {
     double mu, l, poisson;                     // see above
     double per_f;                              // D of a plane return, per unit of F
     double per_f_compression, per_f_extension; // of the edges s1 = s2 and s2 = s3
-    double s2_loss, s3_gain, order_23,
-        strain_gain;                     // plane, per unit of F: -d s2, d s3, mu D, equivalent strain
-    double s3_gain_compression;          // edges, per unit of their F
-    double s3_gain_extension;            //
-    double half_kappa;                   //
+    // Plane, per unit of F: -d s2, d s3, mu D, equivalent strain.
+    double s2_loss, s3_gain, order_23, strain_gain;
+    double s3_gain_compression, s3_gain_extension; // edges, per unit of their F
+    double half_kappa;
     double tension_ratio;                // -d s2/d s1 of a return to the cut-off: lambda/(lambda + 2G)
     double strain_measure, trace_weight; // square of the equivalent strain: measure (D:D - weight (tr D)^2)
     double jacobian[region_count][9];    // d s / d s_trial, row-major, of every region
@@ -55,12 +58,12 @@ struct Surface {
 // Least admissible dilation angle, rad: below it an elastic-plastic step of a nearly incompressible soil has
 // no solution.
 inline double least_dilation(const Soil& m) {
-    const double kappa = std::pow(std::tan(0.25 * M_PI - 0.5 * m.friction_angle), 2);
+    const double kappa = std::pow(std::tan(0.25 * gault::pi - 0.5 * m.friction_angle), 2);
     const double stiffness = m.poisson_ratio / (1.0 - 2.0 * m.poisson_ratio) * (1.0 - kappa);
     double most = std::numeric_limits<double>::infinity(); // of mu: both edges must keep a positive hardness
     if (stiffness > kappa) most = (stiffness + 0.5) / (stiffness - kappa);
     if (2.0 * stiffness > kappa) most = std::fmin(most, (stiffness + 1.0) / (stiffness - 0.5 * kappa));
-    return std::isinf(most) ? -0.5 * M_PI : std::asin((1.0 - most) / (1.0 + most));
+    return std::isinf(most) ? -0.5 * gault::pi : std::asin((1.0 - most) / (1.0 + most));
 }
 
 namespace detail {
@@ -98,14 +101,14 @@ inline void fill_jacobians(Surface& k) {
 
 inline Surface surface(const Soil& m) {
     Surface k{};
-    const double nu = m.poisson_ratio, root = std::tan(0.25 * M_PI - 0.5 * m.friction_angle);
+    const double nu = m.poisson_ratio, root = std::tan(0.25 * gault::pi - 0.5 * m.friction_angle);
     const double ratio = nu / (1.0 - 2.0 * nu); // lambda/2G
     k.twice_shear = m.young_modulus / (1.0 + nu);
     k.lame = ratio * k.twice_shear;
     k.poisson = nu;
     k.kappa = m.friction_angle > 0.0 ? root * root : 1.0;
     k.y = 2.0 * m.cohesion * (m.friction_angle > 0.0 ? root : 1.0);
-    k.mu = m.dilation_angle == 0.0 ? 1.0 : std::pow(std::tan(0.25 * M_PI - 0.5 * m.dilation_angle), 2);
+    k.mu = m.dilation_angle == 0.0 ? 1.0 : std::pow(std::tan(0.25 * gault::pi - 0.5 * m.dilation_angle), 2);
     k.l = ratio * (1.0 - k.mu);
 
     const double vertex = m.friction_angle > 0.0 ? m.cohesion / std::tan(m.friction_angle) : HUGE_VAL;

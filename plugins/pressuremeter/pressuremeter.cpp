@@ -77,7 +77,8 @@ struct Pressuremeter {
             throw gault::Invalid("ramp_strain", "give either ramp_time or ramp_strain, not both");
     }
 
-    struct Motion {           // of the wall
+    // Of the wall.
+    struct Motion {
         double steady, start; // V, m/s; T, s
 
         double travel(double time) const {

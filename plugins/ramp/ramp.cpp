@@ -83,8 +83,8 @@ struct Ramp {
         }
         const double event = next_event(step.time() + slack);
         step.stop_at(event);
-        step.control(0) =
-            value(std::min(step.time() + step.next_dt(), event)); // boundaries act at a step's end
+        // Boundaries act at a step's end.
+        step.control(0) = value(std::min(step.time() + step.next_dt(), event));
     }
 
     double next_event(double after) const { // the next point of the table, or the end
@@ -99,8 +99,8 @@ struct Ramp {
         step.record(normal_force) = step.measure(measured_force);
         step.record(true_pressure) = step.measure(measured_force) / step.measure(measured_area);
 
-        const double row =
-            step.time() / end * rows + 1e-9; // a time that is a row's but for rounding counts as one
+        // A time that is a row's but for rounding counts as one.
+        const double row = step.time() / end * rows + 1e-9;
         if (!step.first() && !done && row < step.memory(next_row)) return;
         step.memory(next_row) = std::floor(row) + 1.0;
         step.emit();

@@ -31,10 +31,10 @@ struct ThickCylinder {
         gault::parameter<&ThickCylinder::cohesion>("cohesion", "c", "Pa", "Cohesion.").at_least(0),
         gault::parameter<&ThickCylinder::friction_angle>("friction_angle", "phi", "rad", "Friction angle.")
             .above(0)
-            .below(1.5707963267948966),
+            .below(0.5 * gault::pi),
         gault::parameter<&ThickCylinder::dilation_angle>("dilation_angle", "psi", "rad", "Dilation angle.")
-            .above(-1.5707963267948966)
-            .below(1.5707963267948966),
+            .above(-0.5 * gault::pi)
+            .below(0.5 * gault::pi),
         gault::parameter<&ThickCylinder::inner_radius>("inner_radius", "a0", "m", "Initial inner radius.")
             .above(0),
         gault::parameter<&ThickCylinder::outer_radius>("outer_radius", "b0", "m", "Initial outer radius.")

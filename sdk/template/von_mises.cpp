@@ -1,4 +1,5 @@
 #include <gault/material.hpp>
+#include <gault/tensor.hpp>
 
 #include <cmath>
 
@@ -43,11 +44,7 @@ struct VonMises {
 
     // One pack of material points. Every lane is a point; no branch, all of them take the same path.
     void update(gault::Point& p) const {
-        const gault::Pack volumetric = lame * (p.strain[0] + p.strain[1] + p.strain[2]);
-        for (int i = 0; i < 6; ++i) {
-            const gault::Pack direct = i < 3 ? volumetric : gault::Pack(0.0);
-            p.stress[i] = p.stress_old[i] + direct + 2.0 * shear * p.strain[i];
-        }
+        p.stress = gault::add_elastic(p.stress_old, p.strain, lame, 2.0 * shear);
         const gault::Pack mean = (p.stress[0] + p.stress[1] + p.stress[2]) / 3.0;
         const gault::Pack q = equivalent_stress(p.stress, mean);
         const gault::Pack scale = gault::select(q > yield, yield / q, 1.0);

@@ -1,5 +1,6 @@
-// The four scenes of the paper, as they are shipped, meet their bounds; numbers are read from what a run
-// writes.
+// The four scenes of the paper, as they are shipped, have the errors that docs/method.md states under
+// "Measured": the bounds are about twice those; "required" is what the project set out to reach. Numbers are
+// read from what a run writes.
 #include "tests/app/child.hpp"
 
 #include <algorithm>
@@ -12,6 +13,13 @@ class PaperScenes : public App {
   protected:
     nlohmann::json cylinder() const { return summary(results)["derived"]["thick_cylinder"]; }
 
+    void expect_cylinder(double sigma_r, double sigma_theta, double displacement) const {
+        const auto c = cylinder();
+        EXPECT_LE(c["sigma_r_l2"], sigma_r);
+        EXPECT_LE(c["sigma_theta_l2"], sigma_theta);
+        EXPECT_LE(c["inner_displacement_error"], displacement);
+    }
+
     void expect_fahey(double largest_curve_error, double largest_profile_error) const {
         const auto reference = summary(results)["reference"];
         const auto& curve = reference["curves"][0];
@@ -19,10 +27,12 @@ class PaperScenes : public App {
         EXPECT_EQ(curve["from"], 0.005);
         EXPECT_EQ(curve["to"], 0.1);
         EXPECT_LE(curve["largest_relative_error"], largest_curve_error);
+        EXPECT_LE(curve["noise_about_cubic"], 4e-5) << "over 4 to 10 %; required: 3e-3";
         ASSERT_EQ(reference["profiles"].size(), 4u);
         for (int k = 0; k < 4; ++k) {
             EXPECT_NEAR(reference["profiles"][k]["value"].get<double>(), 0.025 * (k + 1), 1e-12);
             EXPECT_LE(reference["profiles"][k]["sigma_r_l2"], largest_profile_error);
+            EXPECT_LE(reference["profiles"][k]["sigma_theta_l2"], largest_profile_error);
         }
     }
 
@@ -52,22 +62,18 @@ class PaperScenes : public App {
 
 TEST_F(PaperScenes, CaseOneIsLamesCylinderUnderOuterPressure) {
     run("configs/paper/case1.yaml");
-    EXPECT_LE(cylinder()["sigma_r_l2"], 1e-3);
-    EXPECT_LE(cylinder()["sigma_theta_l2"], 1e-3);
+    expect_cylinder(1.8e-4, 0.8e-4, 4e-4); // required: stresses 1e-3
 }
 
 TEST_F(PaperScenes, CaseTwoIsLamesCylinderUnderBothPressures) {
     run("configs/paper/case2.yaml");
-    EXPECT_LE(cylinder()["sigma_r_l2"], 1e-3);
-    EXPECT_LE(cylinder()["sigma_theta_l2"], 1e-3);
+    expect_cylinder(1.7e-4, 0.9e-4, 4.4e-4); // required: stresses 1e-3
 }
 
 TEST_F(PaperScenes, CaseThreeIsTheClosedFormOnTheDeformedCylinder) {
     run("configs/paper/case3.yaml");
     const auto c = cylinder();
-    EXPECT_LE(c["sigma_r_l2"], 5e-3);
-    EXPECT_LE(c["sigma_theta_l2"], 5e-3);
-    EXPECT_LE(c["inner_displacement_error"], 1e-3);
+    expect_cylinder(6e-4, 6.5e-4, 3.2e-4); // required: stresses 5e-3, displacement 1e-3
     EXPECT_NEAR(c["inner_radius_exact"].get<double>(), 2.042547, 1e-6);
     const double cell_at_the_plastic_radius = 0.16; // m
     EXPECT_NEAR(c["plastic_radius"].get<double>(), 8.056, cell_at_the_plastic_radius);
@@ -79,20 +85,19 @@ TEST_F(PaperScenes, CaseThreeIsTheClosedFormOnTheDeformedCylinder) {
 
 TEST_F(PaperScenes, FaheysTestMeetsItsReferenceInTheTotalFrame) {
     run("configs/paper/fahey.yaml");
-    expect_fahey(5e-3, 5e-3);
+    expect_fahey(2e-4, 2e-3); // required: 5e-3 both
     const auto strain = history(results, "cavity_strain"), pressure = history(results, "true_pressure_Pa");
     const auto peak = std::max_element(pressure.begin(), pressure.end());
-    EXPECT_NEAR(*peak, 628.15e3, 0.5e-2 * 628.15e3);
+    EXPECT_NEAR(*peak, 628.15e3, 1e-4 * 628.15e3);
     EXPECT_NEAR(strain[static_cast<std::size_t>(peak - pressure.begin())], 0.0348, 0.002);
     EXPECT_NEAR(history(results, "nominal_pressure_Pa").back() / pressure.back(), 1.1, 1e-6);
-    EXPECT_LT(summary(results)["energy"]["largest_kinetic_ratio"], 1e-3) << "quasi-static";
-    EXPECT_LT(summary(results)["energy"]["energy_error"], 1e-3);
+    EXPECT_LT(summary(results)["energy"]["largest_kinetic_ratio"], 2e-4) << "quasi-static";
+    EXPECT_LT(summary(results)["energy"]["energy_error"], 1e-10);
 }
 
 TEST_F(PaperScenes, FaheysTestMeetsItsReferenceInTheUpdatedFrame) {
     run("configs/paper/fahey.yaml", {"--set", "model.frame=updated"});
-    expect_fahey(1e-2, 2e-2);
-    EXPECT_LT(summary(results)["reference"]["curves"][0]["noise_about_cubic"], 3e-3) << "over 4 to 10 %";
+    expect_fahey(2e-4, 2.1e-3); // required: 1e-2 and 2e-2
     EXPECT_GT(share_that_crossed(72, 0.02, 0.2), 0.2) << "points cross cells there";
 }
 
@@ -106,7 +111,7 @@ TEST_F(PaperScenes, FaheysTestHardlyFeelsItsMassScaling) {
     const auto other_strain = history(results, "cavity_strain"), other = history(results, "true_pressure_Pa");
     for (double e = 0.005; e < 0.0999; e += 0.0005) {
         const double p = at(strain, pressure, e);
-        EXPECT_NEAR(at(other_strain, other, e), p, 2e-3 * p) << "cavity strain " << e;
+        EXPECT_NEAR(at(other_strain, other, e), p, 7e-4 * p) << "cavity strain " << e;
     }
 }
 

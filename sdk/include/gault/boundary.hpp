@@ -54,9 +54,9 @@ class Facet {
     double initial_traction(int axis) const { return facets_->initial_traction[axis][i_]; } // Pa
 
     void set_pressure(double pressure) { facets_->pressure[i_] = pressure; } // Pa, along -normal, follows it
-    void set_traction(int axis, double traction) {
+    void set_traction(int axis, double traction) {                           // Pa, current area
         facets_->traction[axis][i_] = traction;
-    } // Pa, current area
+    }
     bool wants_slope() const { return facets_->slope[0] != nullptr; }
     void set_slope(int i, int j, double slope) { facets_->slope[3 * i + j][i_] = slope; } // Pa/m, see gault.h
 

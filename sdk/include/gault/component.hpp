@@ -47,6 +47,7 @@ namespace gault {
 inline namespace GAULT_ISA {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double pi = 3.14159265358979323846; // angles are in rad: below(0.5 * gault::pi) is less than 90 deg
 
 // Thrown by prepare(): the user is shown the text at the parameter's line of the scene.
 struct Invalid : std::runtime_error {

@@ -25,9 +25,9 @@ class Sample {
     double time() const { return sample_->time; }                                                         // s
     double position(int axis, int64_t i) const { return sample_->position[axis][i]; }                     // m
     double reference_position(int axis, int64_t i) const { return sample_->reference_position[axis][i]; } // m
-    double stress(int component, int64_t i) const {
+    double stress(int component, int64_t i) const { // Pa, tension positive
         return sample_->stress[component][i];
-    }                                                             // Pa, tension positive
+    }
     double volume(int64_t i) const { return sample_->volume[i]; } // m^3, current
     bool has_field(int index) const { return sample_->field[index] != nullptr; }
     double field(int index, int64_t i) const { return sample_->field[index][i]; }

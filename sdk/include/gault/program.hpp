@@ -28,9 +28,8 @@ class Step {
     bool first() const { return step_->index == 0; } // the call before the first step
     double time() const { return step_->time; }      // s, now
     double dt() const { return step_->dt; }          // s, of the step that ended
-    double next_dt() const {
-        return step_->smallest_dt;
-    } // s, that the host is about to use, unless an event is nearer
+    // s, that the host is about to use, unless an event is nearer
+    double next_dt() const { return step_->smallest_dt; }
     double measure(int i) const { return step_->measure[i]; }
     double& control(int i) { return step_->control[i]; } // for the step that begins now
     double& memory(int i) { return step_->memory[i]; }

@@ -19,7 +19,6 @@ struct Table {
     std::vector<double> x, y; // same length
 
     bool empty() const { return x.empty(); }
-    double first() const { return x.front(); }
     double last() const { return x.back(); }
 
     double linear(double at) const {

@@ -56,6 +56,46 @@ TEST(Scene, HoldsItsGeometryInMetres) {
     EXPECT_EQ(cylinder.geometry.surfaces[0], "axis");
 }
 
+Scene read_radial(std::vector<Override> changes) {
+    changes.insert(changes.begin(), {{"model.symmetry", "radial"}, {"points.per_cell", "auto"}});
+    return read("plain", changes);
+}
+
+TEST(Scene, OfRadialSymmetryIsAMetreHigh) {
+    const Scene scene = read_radial({{"geometry.annulus.bottom", "3 m"}});
+    EXPECT_EQ(scene.symmetry, Symmetry::radial);
+    EXPECT_EQ(scene.geometry.lower, (std::array{0.02, 0.0}));
+    EXPECT_EQ(scene.geometry.upper, (std::array{0.2, 1.0}));
+}
+
+TEST(Scene, OfRadialSymmetryNeedsOneNumberOfCells) {
+    for (const char* cells : {"24", "[24, 1]"}) {
+        const Scene scene = read_radial({{"grid.cells", cells}});
+        EXPECT_EQ(scene.axes[0].cells, 24) << cells;
+        EXPECT_EQ(scene.axes[1].cells, 1) << cells;
+    }
+    EXPECT_EQ(refusal("plain", {{"model.symmetry", "radial"}, {"grid.cells", "[12, 2]"}}),
+              "--set grid.cells: grid.cells: radial symmetry has one row of cells; found '2'");
+    EXPECT_EQ(refusal("plain", {{"grid.cells", "12"}}),
+              "--set grid.cells: grid.cells must be a list; found '12'");
+}
+
+TEST(Scene, OfRadialSymmetryCountsPointsAlongTheRadius) {
+    EXPECT_EQ(read_radial({}).points_per_cell, 4);
+    for (const char* count : {"1", "2", "3", "4", "5", "6"})
+        EXPECT_EQ(read_radial({{"points.per_cell", count}}).points_per_cell, std::stoi(count));
+    for (const char* count : {"0", "7", "9"})
+        EXPECT_EQ(refusal("plain", {{"model.symmetry", "radial"}, {"points.per_cell", count}}),
+                  "--set points.per_cell: points.per_cell is '" + std::string(count) +
+                      "'; allowed along the radius: 1, 2, 3, 4, 5, 6");
+}
+
+TEST(Scene, OfRadialSymmetryHasAnAxis) {
+    EXPECT_EQ(refusal("block", {{"model.symmetry", "radial"}}),
+              "--set model.symmetry: model.symmetry: a block has no axis; use the geometry annulus or "
+              "cylinder, or plane_strain");
+}
+
 TEST(Scene, GeometricGradingMultipliesRadiiByTheSameFactor) {
     const Scene ring = read("annulus");
     EXPECT_EQ(ring.axes[0].cells, 12);
@@ -145,9 +185,22 @@ TEST(Scene, RegionsMakeMaterialsOfTheirOwn) {
     EXPECT_EQ(value(disturbed.model, "ratio").real, 0.3) << "as the soil's";
     EXPECT_EQ(disturbed.density, 1650.0);
     EXPECT_EQ(scene.regions[1].material, 1);
-    EXPECT_EQ(scene.regions[1].lower, (std::array{0.02, -0.05})) << "the whole width";
+    EXPECT_EQ(scene.regions[1].cells.first, (std::array{0, 0})) << "the whole width";
+    EXPECT_EQ(scene.regions[1].cells.last, (std::array{12, 1}));
     EXPECT_EQ(scene.materials[3].density, 1700.0);
     EXPECT_EQ(value(scene.materials[3].model, "stiffness").real, 5e6) << "as the material named";
+}
+
+TEST(Scene, RegionsHoldTheCellsWhoseCentresTheyHold) {
+    // Eight equal cells from -1 m to 1 m: centres at -0.875 m, -0.625 m, ...
+    const auto cells = [](const std::string& extent) {
+        const std::vector<Override> changes{{"grid.grading.x", "1"}, {"regions.1.x", extent}};
+        const CellRange range = read("block", changes).regions[1].cells;
+        return std::array{range.first[0], range.last[0]};
+    };
+    EXPECT_EQ(cells("[-0.12 m, 1 m]"), (std::array{4, 8}));
+    EXPECT_EQ(cells("[-0.13 m, 1 m]"), (std::array{3, 8}));
+    EXPECT_EQ(cells("[-0.13 m, 10 m]"), (std::array{3, 8})) << "what lies outside counts for nothing";
 }
 
 TEST(Scene, NeedsNoSoilWhereRegionsCoverEveryCell) {
@@ -220,8 +273,9 @@ TEST(Scene, TakesTheLeastThatIsEnoughAndSaysWhy) {
     EXPECT_EQ(
         scene.chosen,
         (std::vector<std::string>{
-            "title: cylinder (the name of the file)", "symmetry: axisymmetric (the geometry is a cylinder)",
-            "frame: total (material stays in place)", "solver: explicit (the only one there is)",
+            "title: cylinder (the name of the file)",
+            "model.symmetry: axisymmetric (the geometry is a cylinder)",
+            "model.frame: total (material stays in place)", "model.solver: explicit (the only one there is)",
             "grid.grading.r: 1 (equal cells)", "grid.grading.y: 1 (equal cells)",
             "grid.basis: quadratic (smooth gradients, so no noise where points cross cells)",
             "points.per_cell: 16 (four a direction)",

@@ -132,6 +132,11 @@ TEST(Axis, GradedCellsHaveTheRatioOfTheirNeighbours) {
         EXPECT_NEAR((knots[i] - knots[i - 1]) / (knots[i - 1] - knots[i - 2]), 1.05, 1e-10);
 }
 
+TEST(Axis, CellsThatAreGradedByAlmostNothingAreStillGraded) {
+    const auto knots = Axis::graded(0.0, 1.0, 2, 1.0 + 0x1p-40);
+    EXPECT_NEAR(knots[1], 0.5 - 0x1p-42, 0x1p-52);
+}
+
 TEST(Axis, ARatioOfOneIsUniform) {
     const auto knots = Axis::graded(-1.0, 1.0, 8, 1.0);
     for (int i = 0; i <= 8; ++i)

@@ -34,35 +34,31 @@ void expect_consistent(const Layout& layout, const std::vector<int32_t>& cell, i
         EXPECT_LT(static_cast<int>(page), batch.first_page + batch.pages);
     }
     int page = 0;
-    std::size_t patch = 0;
     for (const Batch& batch : layout.batches) {
         EXPECT_EQ(batch.first_page, page);
-        EXPECT_EQ(batch.patch, patch);
         EXPECT_GE(batch.capacity, batch.pages);
         EXPECT_EQ(batch.patch_row, batch.columns + degree);
         page += batch.capacity;
-        patch += static_cast<std::size_t>(batch.patch_row) * (degree + 1);
     }
     EXPECT_EQ(layout.slots, static_cast<std::size_t>(page) * page_slots);
-    EXPECT_EQ(layout.patch_size, patch);
 }
 
 TEST(Layout, PutsEveryPointIntoAPageOfItsCell) {
     const auto cell = points_in_cells([](int column, int row) { return 1 + (3 * column + 5 * row) % 20; });
     for (const bool roaming : {false, true})
-        expect_consistent(lay_out(cell, {columns, rows, {2, 2}, roaming}), cell, 2);
+        expect_consistent(lay_out(cell, {columns, rows, 2, roaming}), cell, 2);
 }
 
 TEST(Layout, TakesPointsInAnyOrder) {
     auto cell = points_in_cells([](int, int) { return 9; });
     for (std::size_t i = 0; i < cell.size(); ++i)
         std::swap(cell[i], cell[(i * 7919) % cell.size()]);
-    expect_consistent(lay_out(cell, {columns, rows, {1, 1}, false}), cell, 1);
+    expect_consistent(lay_out(cell, {columns, rows, 1, false}), cell, 1);
 }
 
 TEST(Layout, SkipsCellsThatPointsNeverEnter) {
     const auto cell = points_in_cells([](int column, int row) { return row == 1 && column != 3 ? 4 : 0; });
-    const Layout layout = lay_out(cell, {columns, rows, {1, 1}, false});
+    const Layout layout = lay_out(cell, {columns, rows, 1, false});
     ASSERT_EQ(layout.batches.size(), 2u);
     EXPECT_EQ(layout.batches[0].first_column, 0);
     EXPECT_EQ(layout.batches[0].columns, 3);
@@ -74,7 +70,7 @@ TEST(Layout, SkipsCellsThatPointsNeverEnter) {
 
 TEST(Layout, CoversTheWholeGridAndKeepsSparePagesWherePointsRoam) {
     const auto cell = points_in_cells([](int column, int row) { return row == 1 && column < 2 ? 4 : 0; });
-    const Layout layout = lay_out(cell, {columns, rows, {1, 1}, true});
+    const Layout layout = lay_out(cell, {columns, rows, 1, true});
     expect_consistent(layout, cell, 1);
     for (const int32_t batch : layout.batch_of_cell)
         ASSERT_GE(batch, 0);
@@ -84,7 +80,7 @@ TEST(Layout, CoversTheWholeGridAndKeepsSparePagesWherePointsRoam) {
 
 TEST(Layout, CutsRowsIntoBatchesOfTheWantedSize) {
     const auto cell = points_in_cells([](int, int) { return 16; }); // two pages a cell
-    const Layout layout = lay_out(cell, {columns, rows, {1, 1}, false, 6});
+    const Layout layout = lay_out(cell, {columns, rows, 1, false, 6});
     expect_consistent(layout, cell, 1);
     for (const Batch& batch : layout.batches) {
         EXPECT_LE(batch.pages, 6);

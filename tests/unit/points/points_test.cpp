@@ -33,7 +33,7 @@ struct Population {
 
     explicit Population(int per_cell)
         : cell(crowd(per_cell)), identity(shuffled(cell.size())),
-          points(numbered(identity), cell, identity, {columns, rows, {2, 2}, true, 8}) {}
+          points(numbered(identity), cell, identity, {columns, rows, 2, true, 8}) {}
 
     static std::vector<int32_t> crowd(int per_cell) {
         std::vector<int32_t> cell;

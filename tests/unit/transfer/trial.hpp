@@ -178,7 +178,7 @@ class Trial {
             for (int k = 0; k < 5; ++k)
                 fill(c.deformation[k], k == 1 || k == 2 ? -0.2 : 0.8, k == 1 || k == 2 ? 0.2 : 1.2);
         }
-        return Points(std::move(c), cell, identity, {trial_columns, trial_rows, {degree, degree}, updated, 4});
+        return Points(std::move(c), cell, identity, {trial_columns, trial_rows, degree, updated, 4});
     }
 };
 
