@@ -132,9 +132,8 @@ const Defect defects[] = {
 
 // Named, and refused in tests of their own: the defect needs a second file, or shows when the component is
 // created.
-const std::set<std::string> elsewhere{"entry_from_dependency", "unique_one",
-                                      "unique_other",          "first_of_two",
-                                      "second_of_two",         "changes_mode_when_created",
+const std::set<std::string> elsewhere{"entry_from_dependency", "unique_one",      "unique_other",
+                                      "first_of_two",          "second_of_two",   "changes_mode_when_created",
                                       "instance_states",       "instance_signals"};
 
 Parameters one_parameter() {
@@ -250,8 +249,8 @@ std::string refusal_of_signals(const Registry& registry, const std::string& name
 TEST(InstanceStates, AreCheckedAsStaticOnesAre) {
     const Registry registry({plugin("instance_states")});
     const auto expect = [&](const std::string& name, const std::string& text) {
-        EXPECT_EQ(refusal_of_states(registry, name), plugin("instance_states").string() + ": material '" +
-                                                         name + "': instance_states" + text);
+        EXPECT_EQ(refusal_of_states(registry, name),
+                  plugin("instance_states").string() + ": material '" + name + "': instance_states" + text);
     };
     expect("null", " has NULL as its 3 states");
     expect("shapeless", ": state 'age' has the shape 2; the host knows 1, 3 and 6");
@@ -263,8 +262,8 @@ TEST(InstanceStates, AreCheckedAsStaticOnesAre) {
 TEST(InstanceSignals, AreCheckedAsStaticOnesAre) {
     const Registry registry({plugin("instance_signals")});
     const auto expect = [&](const std::string& name, const std::string& text) {
-        EXPECT_EQ(refusal_of_signals(registry, name), plugin("instance_signals").string() + ": program '" +
-                                                          name + "': instance_signals" + text);
+        EXPECT_EQ(refusal_of_signals(registry, name),
+                  plugin("instance_signals").string() + ": program '" + name + "': instance_signals" + text);
     };
     expect("null", " answers NULL; the host expects signals");
     expect("brief", " has signals of 16 bytes; the host expects at least 56");

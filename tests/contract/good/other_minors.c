@@ -64,9 +64,12 @@ COMPONENT(GAULT_OBSERVER, first_observer);
 COMPONENT(GAULT_MATERIAL, later_material);
 COMPONENT(GAULT_PROGRAM, later_program);
 
-static const gault_component* const components[] = {&first_material_component, &first_boundary_component,
-                                                    &first_program_component,  &first_observer_component,
-                                                    &later_material_component, &later_program_component,
+static const gault_component* const components[] = {&first_material_component,
+                                                    &first_boundary_component,
+                                                    &first_program_component,
+                                                    &first_observer_component,
+                                                    &later_material_component,
+                                                    &later_program_component,
                                                     NULL};
 
 GAULT_EXPORT const gault_module GAULT_ENTRY = {.magic = GAULT_MAGIC,
