@@ -1,25 +1,18 @@
 #include "core/config/records.hpp"
 
-#include "core/registry/instance.hpp"
+#include "core/registry/declared.hpp"
 
 #include <algorithm>
 
 namespace gault::core::config {
 
 Records::Records(const ComponentUse& program) : names_{"time"}, units_{"s"} {
-    const auto add = [&](const gault_program_signals* signals) {
-        for (std::uint32_t i = 0; signals != nullptr && i < signals->record_count; ++i) {
-            names_.emplace_back(signals->records[i].name);
-            units_.emplace_back(signals->records[i].unit);
-        }
-    };
-    const auto& api = *static_cast<const gault_program_api*>(program.component->declaration->api);
-    if (api.instance_signals == nullptr) {
-        add(api.signals);
-        return;
-    }
     const Instance instance(*program.component, program.parameters);
-    add(api.instance_signals(instance.self()));
+    const gault_program_signals& signals = program_signals(instance);
+    for (std::uint32_t i = 0; i < signals.record_count; ++i) {
+        names_.emplace_back(signals.records[i].name);
+        units_.emplace_back(signals.records[i].unit);
+    }
 }
 
 std::string Records::unit(const Key& key, const std::string& path) const {

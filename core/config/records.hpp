@@ -7,8 +7,7 @@ namespace gault::core::config {
 
 class Records {
   public:
-    // Creates the program for a moment where its records depend on its parameters; InputError where that
-    // fails.
+    // Creates the program for a moment; InputError where that fails.
     explicit Records(const ComponentUse& program);
 
     // The unit of the record that `key` names; InputError with the nearest otherwise.

@@ -1,8 +1,8 @@
 #include "core/registry/instance.hpp"
 #include "core/base/log.hpp"
+#include "core/registry/answer.hpp"
 #include "core/registry/floating_point.hpp"
 
-#include <cstring>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <utility>
@@ -10,17 +10,9 @@
 namespace gault::core {
 namespace {
 
-// At most `capacity` bytes of a plugin's text, on one line.
-std::string one_line(const char* text, std::size_t capacity) {
-    std::string line(text, strnlen(text, capacity));
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-    return line;
-}
-
 void host_log(void*, gault_level level, const char* text) noexcept try {
     if (!text) return;
-    const std::string line = one_line(text, 4096);
+    const std::string line = plain_text(text, 4096);
     switch (level) {
     case GAULT_DEBUG:
         return log::debug("{}", line);
@@ -45,7 +37,7 @@ constexpr gault_host host{sizeof(gault_host), GAULT_ABI_MINOR, nullptr,       "g
                        const gault_error& error) {
     const gault_component& c = *component.declaration;
     const std::string owner = fmt::format("{} '{}'", kind_name(c.kind), c.name);
-    std::string text = one_line(error.text, sizeof error.text);
+    std::string text = error_text(error);
     if (text.empty()) text = fmt::format("refused by {} without a reason", component.file.string());
     const auto index = static_cast<std::size_t>(error.parameter);
     if (status == GAULT_INVALID && error.parameter >= 0 && index < parameters.locations.size())

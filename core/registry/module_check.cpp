@@ -8,29 +8,20 @@
 namespace gault::core {
 namespace {
 
-std::uint32_t state_components(const gault_state* states, std::uint32_t count, const std::string& owner) {
-    check_that(states || count == 0, owner, fmt::format("has NULL as its {} states", count));
-    std::set<std::string> seen;
-    std::uint32_t components = 0;
-    for (std::uint32_t i = 0; i < count && components <= GAULT_MAX_STATE; ++i) {
-        const gault_state& s = states[i];
-        check_name(s.name, owner + ": a state");
-        const std::string name = fmt::format("{}: state '{}'", owner, s.name);
-        check_that(seen.insert(s.name).second, name, "is declared twice");
-        check_that(is_text(s.unit), name, "has no unit; a pure number has the unit \"1\"");
-        check_that(is_text(s.doc), name, "has no doc");
-        check_that(s.shape == GAULT_SCALAR || s.shape == GAULT_VECTOR || s.shape == GAULT_SYMMETRIC, name,
-                   fmt::format("has the shape {}; the host knows {}, {} and {}", s.shape, +GAULT_SCALAR,
-                               +GAULT_VECTOR, +GAULT_SYMMETRIC));
-        check_that(s.min <= s.initial && s.initial <= s.max, name,
-                   fmt::format("begins at {}, outside its bounds {} and {}", s.initial, s.min, s.max));
-        components += s.shape;
-    }
-    return components;
+constexpr std::uint32_t most_components = 4096; // more is taken for a count that was never set
+
+void check_state(const gault_state& s, const std::string& owner) {
+    check_that(is_text(s.unit), owner, "has no unit; a pure number has the unit \"1\"");
+    check_that(is_text(s.doc), owner, "has no doc");
+    check_that(s.shape == GAULT_SCALAR || s.shape == GAULT_VECTOR || s.shape == GAULT_SYMMETRIC, owner,
+               fmt::format("has the shape {}; the host knows {}, {} and {}", s.shape, +GAULT_SCALAR,
+                           +GAULT_VECTOR, +GAULT_SYMMETRIC));
+    check_that(s.min <= s.initial && s.initial <= s.max, owner,
+               fmt::format("begins at {}, outside its bounds {} and {}", s.initial, s.min, s.max));
 }
 
 void check_signals(const gault_signal* signals, std::uint32_t count, const char* what,
-                   const std::string& owner) {
+                   const std::string& owner, std::uint32_t known_flags = 0) {
     check_that(signals || count == 0, owner, fmt::format("has NULL as its {} {}s", count, what));
     std::set<std::string> seen;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -39,21 +30,25 @@ void check_signals(const gault_signal* signals, std::uint32_t count, const char*
         check_that(seen.insert(signals[i].name).second, name, "is declared twice");
         check_that(is_text(signals[i].unit), name, "has no unit; a pure number has the unit \"1\"");
         check_that(is_text(signals[i].doc), name, "has no doc");
+        check_that(
+            (signals[i].flags & ~known_flags) == 0 && signals[i].reserved == 0, name,
+            fmt::format("has the flags {:#x} and reserved {:#x}; of a {} the host knows the flags {:#x}",
+                        signals[i].flags, signals[i].reserved, what, known_flags));
     }
 }
 
 void check_fields(const char* const* names, const char* what, const std::string& owner) {
-    int count = 0;
-    for (; names && names[count] && count <= GAULT_MAX_INPUT; ++count)
-        check_that(is_text(names[count]), owner, fmt::format("asks for a {} without a name", what));
-    check_that(count <= GAULT_MAX_INPUT, owner,
-               fmt::format("asks for more {}s than the {} that the host offers", what, +GAULT_MAX_INPUT));
+    std::set<std::string> seen;
+    for (; names && *names; ++names) {
+        check_that(is_text(*names), owner, fmt::format("asks for a {} without a name", what));
+        check_that(seen.insert(*names).second, owner,
+                   fmt::format("asks for the {} '{}' twice", what, *names));
+    }
 }
 
 void check_api(const gault_material_api& api, const std::string& owner) {
     check_that(api.update, owner, "has NULL as its update function");
-    check_that(state_components(api.states, api.state_count, owner) <= GAULT_MAX_STATE, owner,
-               fmt::format("has more state components than the {} that the host offers", +GAULT_MAX_STATE));
+    check_states(api.states, api.state_count, owner);
     check_fields(api.inputs, "input", owner);
 }
 
@@ -65,14 +60,7 @@ void check_api(const gault_boundary_api& api, const std::string& owner) {
 void check_api(const gault_program_api& api, const std::string& owner) {
     check_that(api.advance, owner, "has NULL as its advance function");
     check_that(api.signals || api.instance_signals, owner, "has neither signals nor instance_signals");
-    if (!api.signals) return;
-    const gault_program_signals& s = *api.signals;
-    check_that(GAULT_HAS(&s, gault_program_signals, record_count), owner,
-               fmt::format("has signals of {} bytes; the host expects at least {}", s.size, sizeof s));
-    check_signals(s.measures, s.measure_count, "measure", owner);
-    check_signals(s.controls, s.control_count, "control", owner);
-    check_signals(s.memories, s.memory_count, "memory", owner);
-    check_signals(s.records, s.record_count, "record", owner);
+    if (api.signals) check_program_signals(api.signals, owner);
 }
 
 void check_api(const gault_observer_api& api, const std::string& owner) {
@@ -82,14 +70,15 @@ void check_api(const gault_observer_api& api, const std::string& owner) {
     check_fields(api.fields, "field", owner);
 }
 
-// Every api struct is of ABI 1.0 so far: a shorter one is not one.
+// `first_bytes` were in ABI 1.0; what later minors append, a plugin may lack.
 template <class Api>
-void check_api_of(const gault_component& component, const std::string& owner) {
+void check_api_of(const gault_component& component, std::size_t first_bytes, const std::string& owner) {
     const Api& api = *static_cast<const Api*>(component.api);
-    check_that(api.size >= sizeof(Api), owner,
-               fmt::format("has an api of {} bytes; the host expects at least {}", api.size, sizeof(Api)));
+    check_that(api.size >= first_bytes, owner,
+               fmt::format("has an api of {} bytes; the host expects at least {}", api.size, first_bytes));
     check_api(api, owner);
 }
+#define CHECK_API(Api, last) check_api_of<Api>(c, offsetof(Api, last) + sizeof(Api::last), name)
 
 void check_component(const gault_component& c, std::set<std::string>& seen) {
     check_that(GAULT_HAS(&c, gault_component, extension), "a component",
@@ -109,13 +98,13 @@ void check_component(const gault_component& c, std::set<std::string>& seen) {
     check_parameters(c.parameters, name);
     switch (c.kind) {
     case GAULT_MATERIAL:
-        return check_api_of<gault_material_api>(c, name);
+        return CHECK_API(gault_material_api, instance_states);
     case GAULT_BOUNDARY:
-        return check_api_of<gault_boundary_api>(c, name);
+        return CHECK_API(gault_boundary_api, load);
     case GAULT_PROGRAM:
-        return check_api_of<gault_program_api>(c, name);
+        return CHECK_API(gault_program_api, evaluate);
     default:
-        return check_api_of<gault_observer_api>(c, name);
+        return CHECK_API(gault_observer_api, evaluate);
     }
 }
 
@@ -152,6 +141,32 @@ void check_name(const char* name, const std::string& owner) {
     for (const char* c = name; *c; ++c)
         right = right && ((*c >= 'a' && *c <= 'z') || (*c >= '0' && *c <= '9') || *c == '_');
     check_that(right, owner, fmt::format("has the name '{}'; allowed: a-z, then a-z, 0-9 and _", name));
+}
+
+void check_states(const gault_state* states, std::uint32_t count, const std::string& owner) {
+    check_that(states || count == 0, owner, fmt::format("has NULL as its {} states", count));
+    std::set<std::string> seen;
+    std::uint32_t components = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        check_name(states[i].name, owner + ": a state");
+        const std::string name = fmt::format("{}: state '{}'", owner, states[i].name);
+        check_that(seen.insert(states[i].name).second, name, "is declared twice");
+        check_state(states[i], name);
+        components += states[i].shape;
+        check_that(components <= most_components, owner,
+                   fmt::format("has more than {} state components", most_components));
+    }
+}
+
+void check_program_signals(const gault_program_signals* signals, const std::string& owner) {
+    check_that(signals, owner, "answers NULL; the host expects signals");
+    const gault_program_signals& s = *signals;
+    check_that(GAULT_HAS(&s, gault_program_signals, record_count), owner,
+               fmt::format("has signals of {} bytes; the host expects at least {}", s.size, sizeof s));
+    check_signals(s.measures, s.measure_count, "measure", owner);
+    check_signals(s.controls, s.control_count, "control", owner, GAULT_SIGNAL_OPTIONAL);
+    check_signals(s.memories, s.memory_count, "memory", owner);
+    check_signals(s.records, s.record_count, "record", owner);
 }
 
 void check_module(const gault_module& m, std::uint64_t symbol_bytes) {

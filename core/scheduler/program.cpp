@@ -1,23 +1,56 @@
 #include "core/scheduler/program.hpp"
 #include "core/base/suggest.hpp"
+#include "core/registry/answer.hpp"
+#include "core/registry/declared.hpp"
+#include "core/registry/module_check.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
 namespace gault::core {
 namespace {
 
-const gault_program_signals& signals_of(const Instance& instance) {
-    const auto& api = instance.api<gault_program_api>();
-    if (GAULT_HAS(&api, gault_program_api, instance_signals) && api.instance_signals)
-        return *api.instance_signals(instance.self());
-    return *api.signals;
-}
+// Takes what a program reports. What is wrong is remembered: nothing may be thrown through the program.
+class Reported {
+  public:
+    gault_report report() {
+        gault_report r{};
+        r.size = sizeof r;
+        r.host = this;
+        r.result = [](void* host, const char* name, const char* unit, double value, const char* source,
+                      const char* note) noexcept {
+            nlohmann::json j = {{"source", text(source)}};
+            if (std::isfinite(value))
+                j.update({{"value", value}, {"unit", text(unit)}, {"note", text(note)}});
+            else
+                j["absent"] = "not a finite number";
+            static_cast<Reported*>(host)->take(name, std::move(j));
+        };
+        r.absent = [](void* host, const char* name, const char* reason, const char* source) noexcept {
+            static_cast<Reported*>(host)->take(name, {{"absent", text(reason)}, {"source", text(source)}});
+        };
+        return r;
+    }
+    const nlohmann::json& all() const { return all_; }
+    const std::string& wrong() const { return wrong_; }
+
+  private:
+    static std::string text(const char* words) { return plain_text(words, 4096); }
+    void take(const char* name, nlohmann::json result) noexcept try {
+        check_name(name, "a result");
+        check_that(!all_.contains(name), fmt::format("result '{}'", name), "is reported twice");
+        all_[name] = std::move(result);
+    } catch (const std::exception& error) {
+        wrong_ = error.what();
+    }
+
+    nlohmann::json all_ = nlohmann::json::object();
+    std::string wrong_;
+};
 
 } // namespace
 
@@ -35,7 +68,7 @@ void check_measure(const Location& where, const char* owner, const std::string& 
 Program::Program(const Scene& scene, Solver& solver)
     : instance_(*scene.program.component, scene.program.parameters), solver_(solver),
       where_(scene.program.parameters.where), side_(scene.program_surface) {
-    const gault_program_signals& signals = signals_of(instance_);
+    const gault_program_signals& signals = program_signals(instance_);
     for (uint32_t k = 0; k < signals.measure_count; ++k) {
         measures_.emplace_back(signals.measures[k].name);
         check_measure(where_, instance_.declaration().name, measures_.back(), side_.has_value());
@@ -57,7 +90,8 @@ void Program::bind(const Scene& scene, const gault_program_signals& signals) {
         Control control{signal.name, solver_.boundaries().listeners(signal.name, side_, unit)};
         const std::string place =
             side_ ? fmt::format("on '{}'", scene.geometry.surfaces[*side_]) : "in the scene";
-        if (control.listeners.empty()) {
+        const bool needs_listener = !(signal.flags & GAULT_SIGNAL_OPTIONAL);
+        if (control.listeners.empty() && needs_listener) {
             const auto names = solver_.boundaries().control_names(side_);
             throw InputError(where_,
                              fmt::format("program '{}' commands '{}', but no boundary {} listens to it{}",
@@ -65,7 +99,7 @@ void Program::bind(const Scene& scene, const gault_program_signals& signals) {
                                          names.empty() ? "; none there listens to a program"
                                                        : suggestion(signal.name, names)));
         }
-        if (unit != signal.unit)
+        if (!control.listeners.empty() && unit != signal.unit)
             throw InputError(
                 where_, fmt::format("program '{}' commands '{}' in {}, the boundary {} expects {}",
                                     instance_.declaration().name, signal.name, signal.unit, place, unit));
@@ -102,7 +136,7 @@ Program::Answer Program::ask(const Call& call, double next_dt) {
     step.index = call.index;
     step.time = solver_.time();
     step.dt = call.dt;
-    step.smallest_dt = next_dt;
+    step.next_dt = next_dt;
     step.measure = measure_.data();
     step.control = control_.data();
     step.memory = memory_.data();
@@ -113,16 +147,41 @@ Program::Answer Program::ask(const Call& call, double next_dt) {
     gault_error error{-1, 0, -1, ""};
     const gault_status status = instance_.api<gault_program_api>().advance(instance_.self(), &step, &error);
     if (status == GAULT_RETRY && solver_.repeatable())
-        return {false, false, step.next, true, std::clamp(step.suggest, 1e-3, 0.999)};
+        return {false, false, step.next, true, step_fraction(step.suggest, 1e-3, 0.999)};
     if (status != GAULT_OK)
         throw RunError(fmt::format(
-            "program '{}': {}{}", instance_.declaration().name,
-            std::string(error.text, strnlen(error.text, GAULT_TEXT)),
+            "program '{}': {}{}", instance_.declaration().name, error_text(error),
             status == GAULT_RETRY ? " (it asked to repeat a step, which an explicit solver cannot)" : ""));
     for (std::size_t k = 0; k < controls_.size(); ++k)
         for (double* listener : controls_[k].listeners)
             *listener = control_[k];
     return {step.done != 0, step.emit != 0, step.next};
+}
+
+nlohmann::json Program::evaluate(const std::vector<std::vector<double>>& rows) const {
+    const auto& api = instance_.api<gault_program_api>();
+    if (!api.evaluate) return nlohmann::json::object();
+    std::vector<std::vector<double>> columns(1 + columns_.size());
+    std::vector<const double*> pointers;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        for (const std::vector<double>& row : rows)
+            columns[k].push_back(row[k]);
+        pointers.push_back(columns[k].data());
+    }
+    gault_history history{};
+    history.size = sizeof history;
+    history.columns = static_cast<uint32_t>(columns.size());
+    history.rows = static_cast<int64_t>(rows.size());
+    history.column = pointers.data();
+    Reported reported;
+    gault_report report = reported.report();
+    gault_error error{-1, 0, -1, ""};
+    const gault_status status = api.evaluate(instance_.self(), &history, &report, &error);
+    const std::string wrong = status != GAULT_OK ? error_text(error) : reported.wrong();
+    if (status != GAULT_OK || !wrong.empty())
+        throw RunError(fmt::format("program '{}': results: {}", instance_.declaration().name,
+                                   wrong.empty() ? "no reason was given" : wrong));
+    return reported.all();
 }
 
 std::optional<int> Program::column(const std::string& name) const {

@@ -4,6 +4,7 @@
 #include "core/registry/instance.hpp"
 #include "core/solver/solver.hpp"
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,10 @@ class Program {
     // Asks once more at the start of a step that is repeated with another length. `emit` was answered before.
     Answer repeat(double next_dt);
     void withdraw() { last_ = before_last_; } // the step that the last advance() ended is taken back
+
+    // What follows from the rows of a finished run, which begin with time and the records: for every name
+    // {value, unit, source, note} or {absent, source}. RunError where the program fails or reports nonsense.
+    nlohmann::json evaluate(const std::vector<std::vector<double>>& rows) const;
 
     const std::vector<ColumnInfo>& columns() const { return columns_; } // of its records
     const std::vector<double>& record() const { return record_; }

@@ -39,6 +39,15 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// An observer's result is a number, a program's {value, unit, ...} or {absent, ...}.
+std::string derived_text(const nlohmann::json& result) {
+    if (result.is_number()) return fmt::format("{:.6g}", result.get<double>());
+    if (result.contains("absent")) return fmt::format("not derived: {}", result["absent"].get<std::string>());
+    const std::string unit = result["unit"], note = result["note"];
+    return fmt::format("{:.6g}{}{}{}", result["value"].get<double>(), unit == "1" ? "" : " " + unit,
+                       note.empty() ? "" : "; ", note);
+}
+
 // The state of a run, and what happens at the end of each step.
 class Run {
   public:
@@ -73,6 +82,7 @@ class Run {
     std::string advice() const;
     double largest_kinetic_ratio() const;
     std::string kinetic_caution() const; // empty: none
+    void derive();
     void report() const;
     void report_reference() const;
 
@@ -282,6 +292,16 @@ void Run::report_reference() const {
     }
 }
 
+// Names are unique among observers and among programs, not among both.
+void Run::derive() {
+    derived_ = verification_.observe(*solver_);
+    nlohmann::json results = program_.evaluate(writer_.rows());
+    if (results.empty()) return;
+    std::string name = scene_.program.component->declaration->name;
+    if (derived_.contains(name)) name += "_program";
+    derived_[name] = std::move(results);
+}
+
 void Run::report() const {
     log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver_->steps(), point_count(),
               seconds_since(start_),
@@ -295,7 +315,7 @@ void Run::report() const {
     report_reference();
     for (const auto& [name, results] : derived_.items())
         for (const auto& [key, value] : results.items())
-            log::info("{} {}: {:.6g}", name, key, value.get<double>());
+            log::info("{} {}: {}", name, key, derived_text(value));
     log::info("results in {}", writer_.folder().string());
 }
 
@@ -344,7 +364,7 @@ Outcome Run::go() {
         frames_due(true);
         if (!interrupted) {
             reference_ = verification_.finish(writer_.rows());
-            derived_ = verification_.observe(*solver_);
+            derive();
         }
         summary(interrupted ? "interrupted" : "done", "");
         writer_.finish();

@@ -1,6 +1,7 @@
 #include "core/scheduler/snapshot.hpp"
 
 #include <cstring>
+#include <limits>
 
 namespace gault::core {
 namespace {
@@ -101,6 +102,7 @@ PointArrays collect(const Motion& motion) {
     for (auto& c : a.stress)
         c.resize(n);
     a.volume.resize(n);
+    a.material.resize(n);
     each(motion, [&](int m, std::size_t slot, uint32_t id) {
         const PointRecord r = motion.record(m, slot);
         for (int k = 0; k < 2; ++k) {
@@ -110,6 +112,7 @@ PointArrays collect(const Motion& motion) {
         for (int k = 0; k < 6; ++k)
             a.stress[k][id] = motion.points()[m].columns().stress[k][slot];
         a.volume[id] = r.volume;
+        a.material[id] = m;
     });
     return a;
 }
@@ -121,7 +124,7 @@ std::vector<double> collect_state(const Motion& motion, const std::string& name)
         found |= info && info->declared.shape == GAULT_SCALAR;
     }
     if (!found) return {};
-    std::vector<double> values(motion.point_count(), 0.0);
+    std::vector<double> values(motion.point_count(), std::numeric_limits<double>::quiet_NaN());
     each(motion, [&](int m, std::size_t slot, uint32_t id) {
         const StateInfo* info = find_state(motion.materials()[m], name);
         if (info && info->declared.shape == GAULT_SCALAR)

@@ -14,9 +14,10 @@ struct PointArrays {
     std::array<std::vector<double>, 3> position, reference;
     std::array<std::vector<double>, 6> stress;
     std::vector<double> volume;
+    std::vector<int32_t> material;
 };
 PointArrays collect(const Motion& motion);
-// A scalar state by name, 0 where a material has none of that name; empty if no material has it.
+// A scalar state by name, NaN where a material has none of that name; empty if no material has it.
 std::vector<double> collect_state(const Motion& motion, const std::string& name);
 
 } // namespace gault::core

@@ -1,13 +1,13 @@
 #include "core/scheduler/verification.hpp"
 #include "core/base/suggest.hpp"
 #include "core/base/units.hpp"
+#include "core/registry/answer.hpp"
 #include "core/scheduler/program.hpp"
 #include "core/scheduler/snapshot.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -149,6 +149,10 @@ nlohmann::json Verification::observe(Solver& solver) {
     if (observers_.empty()) return all;
     const Motion& motion = solver.motion();
     const PointArrays points = collect(motion);
+    std::vector<const char*> material_names;
+    for (const Material& material : motion.materials())
+        material_names.push_back(material.name().c_str());
+    material_names.push_back(nullptr);
     for (Observer& observer : observers_) {
         const auto& api = observer.instance.api<gault_observer_api>();
         gault_sample sample{};
@@ -168,8 +172,12 @@ nlohmann::json Verification::observe(Solver& solver) {
         std::vector<std::vector<double>> fields;
         for (const char* const* name = api.fields; name && *name; ++name)
             fields.push_back(collect_state(motion, *name));
-        for (std::size_t k = 0; k < fields.size(); ++k)
-            sample.field[k] = fields[k].empty() ? nullptr : fields[k].data();
+        std::vector<const double*> field;
+        for (const std::vector<double>& values : fields)
+            field.push_back(values.empty() ? nullptr : values.data());
+        sample.field = field.data();
+        sample.material = points.material.data();
+        sample.material_name = material_names.data();
         for (int k = 0; k < 2; ++k)
             for (const double h : motion.grid().axis(k).length())
                 sample.cell_size[k] = std::max(sample.cell_size[k], h);
@@ -180,8 +188,8 @@ nlohmann::json Verification::observe(Solver& solver) {
         sample.result = result.data();
         gault_error error{-1, 0, -1, ""};
         if (api.evaluate(observer.instance.self(), &sample, &error) != GAULT_OK)
-            throw RunError(fmt::format("observer '{}': {}", observer.instance.declaration().name,
-                                       std::string(error.text, strnlen(error.text, GAULT_TEXT))));
+            throw RunError(
+                fmt::format("observer '{}': {}", observer.instance.declaration().name, error_text(error)));
         std::string key = observer.instance.declaration().name;
         for (int n = 2; all.contains(key); ++n)
             key = fmt::format("{}_{}", observer.instance.declaration().name, n);

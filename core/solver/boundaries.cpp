@@ -1,11 +1,11 @@
 #include "core/solver/boundaries.hpp"
+#include "core/registry/answer.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace gault::core {
 namespace {
@@ -98,7 +98,7 @@ void Boundaries::prepare_load(Condition& condition,
 }
 
 void Boundaries::refuse(const Condition& condition, gault_status status, const gault_error& error) const {
-    const std::string text(error.text, strnlen(error.text, GAULT_TEXT));
+    const std::string text = error_text(error);
     throw RunError(fmt::format("boundary '{}' on {}: {}{}", condition.instance.declaration().name,
                                fmt::join(condition.names, ", "),
                                text.empty() ? "no result and no reason" : text,

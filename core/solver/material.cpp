@@ -1,5 +1,7 @@
 #include "core/solver/material.hpp"
 #include "core/base/suggest.hpp"
+#include "core/registry/answer.hpp"
+#include "core/registry/declared.hpp"
 
 #include <fmt/format.h>
 
@@ -13,32 +15,16 @@ namespace {
 const std::vector<std::string> field_names = {"density", "volume_ratio",
                                               "characteristic_length"}; // as HostField
 
-std::vector<gault_state> declared_states(const Instance& instance) {
-    const auto& api = instance.api<gault_material_api>();
-    if (!GAULT_HAS(&api, gault_material_api, instance_states) || !api.instance_states)
-        return {api.states, api.states + api.state_count};
-    uint32_t count = 0;
-    const gault_state* states = api.instance_states(instance.self(), &count);
-    return {states, states + count};
-}
-
-std::string bounded(const char* text) {
-    return {text, strnlen(text, GAULT_TEXT)};
-}
-
 } // namespace
 
 Material::Material(const MaterialUse& use)
     : name_(use.name), instance_(*use.model.component, use.model.parameters), density_(use.density) {
     const Location& where = use.model.parameters.where;
-    for (const gault_state& state : declared_states(instance_)) {
+    for (const gault_state& state : material_states(instance_)) {
         states_.push_back({state, components_});
         components_ += static_cast<int>(state.shape);
         rotates_states_ |= state.shape != GAULT_SCALAR && !finite_strain();
     }
-    if (components_ > GAULT_MAX_STATE)
-        throw InputError(where, fmt::format("material '{}' declares {} state components; this host holds {}",
-                                            name_, components_, int(GAULT_MAX_STATE)));
     for (const char* const* input = api().inputs; input && *input; ++input) {
         const auto found = std::find(field_names.begin(), field_names.end(), *input);
         if (found == field_names.end())
@@ -47,18 +33,16 @@ Material::Material(const MaterialUse& use)
                                    name_, *input, suggestion(*input, field_names)));
         inputs_.push_back(static_cast<HostField>(found - field_names.begin()));
     }
-    if (inputs_.size() > GAULT_MAX_INPUT)
-        throw InputError(where, fmt::format("material '{}' asks for {} fields; this host passes {}", name_,
-                                            inputs_.size(), int(GAULT_MAX_INPUT)));
 }
 
 bool Material::wants(HostField field) const {
     return std::find(inputs_.begin(), inputs_.end(), field) != inputs_.end();
 }
 
-Workspace::Workspace(std::size_t slots) : slots_(slots), columns_(count), zero_(slots) {}
+Workspace::Workspace(std::size_t slots) : slots_(slots), columns_(state_old), zero_(slots) {}
 
 double* Workspace::column(int k) {
+    if (columns_.size() <= static_cast<std::size_t>(k)) columns_.resize(k + 1);
     if (columns_[k].empty()) columns_[k].resize(slots_);
     return columns_[k].data();
 }
@@ -133,10 +117,14 @@ struct Call { // a gault_points over a batch, with what it points at
             p.stress_old[k] = view.stress_old[k];
             p.stress[k] = points.columns().stress[k].data() + first;
         }
+        workspace.old_states.clear();
+        workspace.states.clear();
         for (int k = 0; k < material.state_components(); ++k) {
-            p.state_old[k] = workspace.column(Workspace::state_old + k);
-            p.state[k] = points.columns().state[k].data() + first;
+            workspace.old_states.push_back(workspace.column(Workspace::state_old + k));
+            workspace.states.push_back(points.columns().state[k].data() + first);
         }
+        p.state_old = workspace.old_states.data();
+        p.state = workspace.states.data();
         p.suggest = 0.5;
         if (!view.gradient_old[0]) return;
         static constexpr int position[9] = {0,  1,  -1, 2, 3,
@@ -160,14 +148,14 @@ gault_status update_in_pieces(const Material& material, const Call& whole, std::
                               gault_error& error) {
     Call part = whole;
     std::vector<Column> copies;
-    copies.reserve(6 + GAULT_MAX_STATE + 6 + 18);
+    copies.reserve(6 + static_cast<std::size_t>(material.state_components()) + 6 + 18);
     const auto copy = [&](const double* from) {
         copies.emplace_back(n);
         std::copy(from, from + n, copies.back().begin());
         return copies.back().data();
     };
     double* stress[6];
-    double* state[GAULT_MAX_STATE];
+    std::vector<double*> state;
     for (int k = 0; k < 6; ++k) {
         part.p.stress_old[k] = stress[k] = copy(whole.p.stress_old[k]);
         double* strain = copy(whole.p.strain[k]);
@@ -176,7 +164,8 @@ gault_status update_in_pieces(const Material& material, const Call& whole, std::
         part.p.strain[k] = strain;
     }
     for (int k = 0; k < material.state_components(); ++k)
-        part.p.state_old[k] = state[k] = copy(whole.p.state_old[k]);
+        state.push_back(copy(whole.p.state_old[k]));
+    part.p.state_old = state.data();
     double *from[9] = {}, *to[9] = {};
     for (int k = 0; k < 9 && whole.p.F_old[0]; ++k) {
         part.p.F_old[k] = from[k] = copy(whole.p.F_old[k]);
@@ -202,6 +191,7 @@ gault_status update_in_pieces(const Material& material, const Call& whole, std::
 
 void fill_inputs(const Material& material, gault_points& p, const BatchView& view, Workspace& workspace,
                  std::size_t n, const GridView& grid) {
+    workspace.inputs.clear();
     for (std::size_t k = 0; k < material.inputs().size(); ++k) {
         double* column = workspace.column(Workspace::input + static_cast<int>(k));
         for (std::size_t i = 0; i < n; ++i) {
@@ -218,8 +208,9 @@ void fill_inputs(const Material& material, gault_points& p, const BatchView& vie
                 break;
             }
         }
-        p.input[k] = column;
+        workspace.inputs.push_back(column);
     }
+    p.input = workspace.inputs.data();
 }
 
 } // namespace
@@ -235,10 +226,12 @@ gault_status differentiate(const Material& material, const Call& whole, std::siz
     Call shifted = whole;
     std::vector<Column> stress(6, Column(n)), state(material.state_components(), Column(n)),
         moved(9, Column(n));
+    std::vector<double*> states;
     for (int k = 0; k < 6; ++k)
         shifted.p.stress[k] = stress[k].data();
-    for (int k = 0; k < material.state_components(); ++k)
-        shifted.p.state[k] = state[k].data();
+    for (Column& column : state)
+        states.push_back(column.data());
+    shifted.p.state = states.data();
     for (int column = 0; column < tangent_columns; ++column) {
         const double* strain = whole.p.strain[column];
         std::transform(strain, strain + n, moved[0].begin(), [](double e) { return e + shift; });
@@ -273,17 +266,13 @@ UpdateFailure update_batch(const Material& material, Points& points, const std::
     const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
     if (n == 0) return {};
     Call whole(material, points, first, n, view, workspace, moment);
-    double* old[GAULT_MAX_STATE];
-    for (int k = 0; k < material.state_components(); ++k)
-        old[k] = workspace.column(Workspace::state_old + k);
-    rotate_states(material, state_old.data(), first, n, view, old);
+    rotate_states(material, state_old.data(), first, n, view, workspace.old_states.data());
     fill_inputs(material, whole.p, view, workspace, n, grid);
     if (tangent && material.has_tangent()) std::copy_n(tangent, 36, whole.p.tangent);
 
     gault_error error;
     gault_status status = call(material, whole.p, error);
-    const double fraction =
-        std::isfinite(whole.p.suggest) ? std::clamp(whole.p.suggest, 1.0 / 1024.0, 0.5) : 0.5;
+    const double fraction = step_fraction(whole.p.suggest, 1.0 / 1024.0, 0.5);
     if (tangent) {
         if (status == GAULT_OK && !material.has_tangent())
             status = differentiate(material, whole, n, tangent, error);
@@ -297,7 +286,7 @@ UpdateFailure update_batch(const Material& material, Points& points, const std::
         first + static_cast<std::size_t>(std::clamp<int64_t>(error.point, 0, static_cast<int64_t>(n) - 1));
     return {status, slot,
             status == GAULT_RETRY && !tangent ? "the step had to be divided more than 1024 times"
-                                              : bounded(error.text),
+                                              : error_text(error),
             fraction};
 }
 
@@ -313,7 +302,7 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
     Workspace workspace(most);
     BatchView view{};
     attach_workspace(material, workspace, view);
-    std::vector<Column> spare(6 + material.state_components(), Column(most));
+    std::vector<Column> spare(6 + static_cast<std::size_t>(material.state_components()), Column(most));
     for (const Batch& batch : points.layout().batches) {
         const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
         const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
@@ -338,7 +327,7 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
         prepare(whole.p, first, spare);
         gault_error error{-1, 0, -1, ""};
         if (function(whole.p, error) != GAULT_OK)
-            throw RunError(fmt::format("material '{}': {}", material.name(), bounded(error.text)));
+            throw RunError(fmt::format("material '{}': {}", material.name(), error_text(error)));
     }
 }
 
@@ -348,6 +337,7 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
                      const Deformation& deformation, double time, Column& modulus, Column& shear) {
     modulus.resize(points.slots());
     shear.resize(points.slots());
+    std::vector<double*> states(static_cast<std::size_t>(material.state_components()));
     call_at_rest(
         material, points, grid, deformation, time,
         [&](gault_points& p, std::size_t first, std::vector<Column>& spare) {
@@ -355,8 +345,9 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
             p.shear_modulus = shear.data() + first;
             for (int k = 0; k < 6; ++k)
                 p.stress[k] = spare[k].data();
-            for (int k = 0; k < material.state_components(); ++k)
-                p.state[k] = spare[6 + k].data();
+            for (std::size_t k = 0; k < states.size(); ++k)
+                states[k] = spare[6 + k].data();
+            p.state = states.data();
         },
         [&](gault_points& p, gault_error& error) {
             return material.api().update(material.instance().self(), &p, &error);

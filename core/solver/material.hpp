@@ -14,6 +14,7 @@
 namespace gault::core {
 
 enum class HostField { density, volume_ratio, characteristic_length };
+constexpr int host_fields = 3;
 
 struct StateInfo {
     gault_state declared;
@@ -62,11 +63,12 @@ class Workspace {
         gradient_new = 22,
         volume_ratio = 27,
         input = 28,
-        probe = 44,
-        state_old = 50,
-        count = state_old + GAULT_MAX_STATE
+        probe = input + host_fields,
+        state_old = probe + 6 // and on, a column a component
     };
     const double* zero() const { return zero_.data(); }
+
+    std::vector<double*> old_states, states, inputs; // lists of columns for the call in hand
 
   private:
     std::size_t slots_;

@@ -63,6 +63,9 @@ struct Ramp {
             gault::signal("normal_force", "N", "Force that pushes into the soil."),
             gault::signal("area", "m^2", "Current area of the surface.")};
         signals.controls = {gault::signal(control.c_str(), unit, "What the table commands.", value(0.0))};
+        if (control == "pressure") // which a wall heeds when it is told to
+            signals.controls.push_back(gault::optional(
+                gault::signal("drive", "1", "1: a wall takes its pressure instead of its velocity.", 1.0)));
         signals.memories = {gault::signal("next_row", "1", "Number of the row that is due.")};
         signals.records = {
             gault::signal("set_value", unit, "What the table commands now."),

@@ -68,6 +68,22 @@ TEST(Ramp, MovesTheControlThatItNames) {
     EXPECT_STREQ(api.instance_signals(c.self())->records[0].unit, "m/s");
 }
 
+TEST(Ramp, TellsAWallToTakeItsPressure) {
+    const Component pressing = program({{"pressure", loading}});
+    ProgramRun run(pressing);
+    run_to_end(run, "pressure", 0.1);
+    EXPECT_EQ(run.commanded("drive"), 1.0);
+    const auto signals = [](const Component& c) {
+        return c.api<gault_program_api>().instance_signals(c.self());
+    };
+    EXPECT_EQ(signals(pressing)->controls[0].flags, 0u);
+    EXPECT_EQ(signals(pressing)->controls[1].flags, +GAULT_SIGNAL_OPTIONAL);
+    const Component moving = program({{"velocity", Points{{0.0, 0.0}, {1.0, 1e-3}}}});
+    EXPECT_EQ(signals(moving)->control_count, 1u);
+    const Component elsewhere = program({{"pressure", loading}, {"control", "suction"}});
+    EXPECT_EQ(signals(elsewhere)->control_count, 1u);
+}
+
 TEST(Ramp, EmitsEvenlySpacedRowsAndItsEnds) {
     const Component c = program({{"pressure", loading}, {"rows", 10}});
     ProgramRun run(c);

@@ -126,7 +126,8 @@ class Rings {
         sample_.stress[0] = radial_.data();
         sample_.stress[2] = hoop_.data();
         sample_.volume = volume_.data();
-        sample_.field[0] = strain_.data();
+        fields_[0] = strain_.data();
+        sample_.field = fields_;
         measure_[0] = radius;
         sample_.measure = measure_;
         sample_.result = results_.data();
@@ -148,6 +149,7 @@ class Rings {
     const Component& observer_;
     std::vector<double> results_, position_, reference_, radial_, hoop_, volume_, strain_;
     double measure_[1];
+    const double* fields_[1];
     gault_sample sample_{};
 };
 
@@ -199,8 +201,10 @@ TEST(ThickCylinder, ComparesWithLameWhereNoStrengthIsGiven) {
     const Lame lame(2.0, 20.0, 20e6, 10e6);
     const double position[] = {3.0}, volume[] = {1.0};
     const double radial[] = {-lame.at(3.0).radial}, hoop[] = {-lame.at(3.0).hoop}, measure[] = {2.0};
+    const double* const no_field[] = {nullptr};
     double results[13];
     gault_sample sample{};
+    sample.field = no_field;
     sample.size = sizeof sample;
     sample.count = 1;
     sample.position[0] = sample.reference_position[0] = position;

@@ -35,6 +35,7 @@ void* create(double strength, gault_status expected_status) {
 struct Batch {
     alignas(64) double strain[6][GAULT_LANES] = {}, old[6][GAULT_LANES] = {}, now[6][GAULT_LANES] = {};
     alignas(64) double state[2][GAULT_LANES] = {};
+    double *old_states[1] = {state[0]}, *states[1] = {state[1]}; // one array a component
     gault_points points{};
 
     Batch() {
@@ -46,9 +47,10 @@ struct Batch {
             points.stress_old[i] = old[i];
             points.stress[i] = now[i];
         }
-        points.state_old[0] = state[0];
-        points.state[0] = state[1];
+        points.state_old = old_states;
+        points.state = states;
     }
+    Batch(const Batch&) = delete;
     void step(const void* self, int component, double increment) {
         for (double& lane : strain[component])
             lane = increment;

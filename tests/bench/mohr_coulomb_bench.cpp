@@ -67,8 +67,9 @@ void update(benchmark::State& state, const gault_component& component, Mix mix, 
         batch.stress_old[c] = stress[c] = arrays.add(0.0);
         batch.stress[c] = arrays.add(0.0);
     }
-    batch.state_old[0] = arrays.add(0.0);
-    batch.state[0] = arrays.add(0.0);
+    double *const old_state = arrays.add(0.0), *const state_now = arrays.add(0.0);
+    batch.state_old = &old_state;
+    batch.state = &state_now;
     batch.modulus = arrays.add(0.0);
     batch.shear_modulus = arrays.add(0.0);
     if (tangent)

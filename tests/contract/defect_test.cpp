@@ -1,6 +1,6 @@
 // Every defect that a plugin file can have is refused with one line that names the file and both sides: what
 // the file has or wants, and what the host expects or offers.
-#include "core/registry/instance.hpp"
+#include "core/registry/declared.hpp"
 #include "core/registry/registry.hpp"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,9 @@ const Defect defects[] = {
     {"undersized_api", "material 'tiny' has an api of 8 bytes; the host expects at least 56"},
     {"null_update", "material 'tiny' has NULL as its update function"},
     {"null_states", "material 'tiny' has NULL as its 1 states"},
-    {"too_many_states", "material 'tiny' has more state components than the 48 that the host offers"},
+    {"undersized_program_api", "program 'tiny' has an api of 32 bytes; the host expects at least 40"},
+    {"too_many_states", "material 'tiny' has more than 4096 state components"},
+    {"input_twice", "material 'tiny' asks for the input 'density' twice"},
     {"state_out_of_bounds", "material 'tiny': state 'age' begins at -1, outside its bounds 0 and inf"},
     {"state_of_unknown_shape", "material 'tiny': state 'age' has the shape 9; the host knows 1, 3 and 6"},
     {"state_without_unit", "material 'tiny': state 'age' has no unit; a pure number has the unit \"1\""},
@@ -89,6 +91,12 @@ const Defect defects[] = {
     {"program_without_advance", "program 'tiny' has NULL as its advance function"},
     {"program_without_signals", "program 'tiny' has neither signals nor instance_signals"},
     {"record_without_unit", "program 'tiny': record 'depth' has no unit; a pure number has the unit \"1\""},
+    {"signal_with_unknown_flags", "program 'tiny': control 'speed' has the flags 0x5 and reserved 0x0; of a "
+                                  "control the host knows the flags 0x1"},
+    {"optional_record", "program 'tiny': record 'depth' has the flags 0x1 and reserved 0x0; of a record the "
+                        "host knows the flags 0x0"},
+    {"signal_with_reserved_bits", "boundary 'tiny': control 'pressure' has the flags 0x0 and reserved 0x1; "
+                                  "of a control the host knows the flags 0x0"},
     {"observer_without_evaluate", "observer 'tiny' has NULL as its evaluate function"},
     {"parameter_twice", "material 'tiny': parameter 'stiffness' is declared twice"},
     {"undersized_parameter", "material 'tiny' has a parameter of 4 bytes; the host expects at least 112"},
@@ -124,8 +132,16 @@ const Defect defects[] = {
 
 // Named, and refused in tests of their own: the defect needs a second file, or shows when the component is
 // created.
-const std::set<std::string> elsewhere{"entry_from_dependency", "unique_one",    "unique_other",
-                                      "first_of_two",          "second_of_two", "changes_mode_when_created"};
+const std::set<std::string> elsewhere{"entry_from_dependency", "unique_one",      "unique_other",
+                                      "first_of_two",          "second_of_two",   "changes_mode_when_created",
+                                      "instance_states",       "instance_signals"};
+
+Parameters one_parameter() {
+    Parameters parameters;
+    parameters.values.push_back({});
+    parameters.locations.push_back({});
+    return parameters;
+}
 
 class DefectiveFile : public testing::TestWithParam<Defect> {};
 
@@ -191,12 +207,9 @@ TEST(DefectivePlugin, IsRefusedAgainAlthoughItsConstructorsHaveRun) {
 
 TEST(DefectivePlugin, ThatChangesTheFloatingPointModeWhenCreatedIsRefusedThen) {
     const Registry registry({plugin("changes_mode_when_created")});
-    Parameters parameters;
-    parameters.values.push_back({});
-    parameters.locations.push_back({});
     const unsigned before = _mm_getcsr();
     try {
-        const Instance instance(registry.find(GAULT_MATERIAL, "tiny"), parameters);
+        const Instance instance(registry.find(GAULT_MATERIAL, "tiny"), one_parameter());
         ADD_FAILURE() << "accepted";
     } catch (const InputError& e) {
         EXPECT_EQ(e.what(), plugin("changes_mode_when_created").string() +
@@ -205,4 +218,57 @@ TEST(DefectivePlugin, ThatChangesTheFloatingPointModeWhenCreatedIsRefusedThen) {
                                 "expects it unchanged");
     }
     EXPECT_EQ(_mm_getcsr() & 0xFFC0, before & 0xFFC0);
+}
+
+// ---- what an instance declares --------------------------------------------------------------------------
+
+namespace {
+
+std::string refusal_of_states(const Registry& registry, const std::string& name) {
+    const Instance instance(registry.find(GAULT_MATERIAL, name), one_parameter());
+    try {
+        material_states(instance);
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+std::string refusal_of_signals(const Registry& registry, const std::string& name) {
+    const Instance instance(registry.find(GAULT_PROGRAM, name), one_parameter());
+    try {
+        program_signals(instance);
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+} // namespace
+
+TEST(InstanceStates, AreCheckedAsStaticOnesAre) {
+    const Registry registry({plugin("instance_states")});
+    const auto expect = [&](const std::string& name, const std::string& text) {
+        EXPECT_EQ(refusal_of_states(registry, name),
+                  plugin("instance_states").string() + ": material '" + name + "': instance_states" + text);
+    };
+    expect("null", " has NULL as its 3 states");
+    expect("shapeless", ": state 'age' has the shape 2; the host knows 1, 3 and 6");
+    expect("twice", ": state 'age' is declared twice");
+    expect("nameless", ": a state has no name");
+    expect("countless", " has more than 4096 state components");
+}
+
+TEST(InstanceSignals, AreCheckedAsStaticOnesAre) {
+    const Registry registry({plugin("instance_signals")});
+    const auto expect = [&](const std::string& name, const std::string& text) {
+        EXPECT_EQ(refusal_of_signals(registry, name),
+                  plugin("instance_signals").string() + ": program '" + name + "': instance_signals" + text);
+    };
+    expect("null", " answers NULL; the host expects signals");
+    expect("brief", " has signals of 16 bytes; the host expects at least 56");
+    expect("listless", " has NULL as its 2 measures");
+    expect("twice", ": record 'depth' is declared twice");
+    expect("misnamed", ": a control has the name 'Wall speed'; allowed: a-z, then a-z, 0-9 and _");
+    expect("unitless", ": memory 'travel' has no unit; a pure number has the unit \"1\"");
 }

@@ -42,11 +42,15 @@ struct Batch {
             points.stress[i] = columns[12 + i].data();
         }
         states.assign(2 * GAULT_LANES, 0.0);
-        points.state_old[0] = states.data();
-        points.state[0] = states.data() + GAULT_LANES;
+        old_state = states.data();
+        state = states.data() + GAULT_LANES;
+        points.state_old = &old_state;
+        points.state = &state;
         points.modulus = columns[18].data();
     }
+    Batch(const Batch&) = delete;
     Column states;
+    double *old_state, *state;
 };
 
 } // namespace
@@ -104,4 +108,17 @@ TEST(PluginInC, IsDescribedFromTheFileAlone) {
     EXPECT_NE(text.find("borne_pressure  Pa    scalar  0        0     inf  Largest pressure so far.\n"),
               std::string::npos)
         << text;
+}
+
+TEST(PluginOfAnotherMinor, IsLoadedWithAnApiAsShortAsTheFirstOrLongerThanTheHosts) {
+    const Registry registry({CONTRACT_DIR "/other_minors"});
+    const auto api_bytes = [&](gault_kind kind, const char* name) {
+        return *static_cast<const std::uint32_t*>(registry.find(kind, name).declaration->api);
+    };
+    EXPECT_EQ(api_bytes(GAULT_MATERIAL, "first_material"), 56u);
+    EXPECT_EQ(api_bytes(GAULT_BOUNDARY, "first_boundary"), 40u);
+    EXPECT_EQ(api_bytes(GAULT_PROGRAM, "first_program"), 40u);
+    EXPECT_EQ(api_bytes(GAULT_OBSERVER, "first_observer"), 48u);
+    EXPECT_GT(api_bytes(GAULT_MATERIAL, "later_material"), sizeof(gault_material_api));
+    EXPECT_GT(api_bytes(GAULT_PROGRAM, "later_program"), sizeof(gault_program_api));
 }

@@ -190,12 +190,13 @@ class Batch {
             points_.stress[i] = add(stress, count);
         }
         const auto& api = material.api<gault_material_api>();
-        int component = 0;
         for (uint32_t s = 0; s < api.state_count; ++s)
-            for (uint32_t i = 0; i < api.states[s].shape; ++i, ++component) {
-                points_.state_old[component] = add(state_old, count, api.states[s].initial);
-                points_.state[component] = add(state, count);
+            for (uint32_t i = 0; i < api.states[s].shape; ++i) {
+                old_states_.push_back(add(state_old, count, api.states[s].initial));
+                states_.push_back(add(state, count));
             }
+        points_.state_old = old_states_.data();
+        points_.state = states_.data();
         points_.modulus = modulus.data();
         points_.shear_modulus = shear_modulus.data();
         for (int i = 0; with_tangent && i < 36; ++i)
@@ -240,6 +241,7 @@ class Batch {
             columns[i][point] = value[i];
     }
     const Component& material_;
+    std::vector<double*> old_states_, states_;
     gault_points points_{};
 };
 

@@ -26,7 +26,7 @@ class ProgramRun {
         step.index = index++;
         step.time = time;
         step.dt = last_dt_;
-        step.smallest_dt = wanted_dt;
+        step.next_dt = wanted_dt;
         step.measure = measure.data();
         step.control = control.data();
         step.memory = memory_.data();
@@ -37,6 +37,42 @@ class ProgramRun {
         next = step.next;
         last_dt_ = std::min(wanted_dt, next - time);
         return status;
+    }
+    // What follows from `rows`, whose times are in `times`.
+    struct Result {
+        double value; // NaN where it is absent
+        std::string unit, source, note, reason;
+    };
+    std::map<std::string, Result> evaluate(const std::vector<double>& times) {
+        std::vector<std::vector<double>> columns{times};
+        for (std::size_t k = 0; k < record.size(); ++k) {
+            columns.emplace_back();
+            for (const std::vector<double>& row : rows)
+                columns.back().push_back(row[k]);
+        }
+        std::vector<const double*> pointers;
+        for (const std::vector<double>& column : columns)
+            pointers.push_back(column.data());
+        gault_history history{};
+        history.size = sizeof history;
+        history.columns = static_cast<uint32_t>(columns.size());
+        history.rows = static_cast<int64_t>(times.size());
+        history.column = pointers.data();
+        std::map<std::string, Result> results;
+        gault_report report{};
+        report.size = sizeof report;
+        report.host = &results;
+        report.result = [](void* host, const char* name, const char* unit, double value, const char* source,
+                           const char* note) noexcept {
+            (*static_cast<decltype(results)*>(host))[name] = {value, unit, source, note, ""};
+        };
+        report.absent = [](void* host, const char* name, const char* reason, const char* source) noexcept {
+            (*static_cast<decltype(results)*>(host))[name] = {std::nan(""), "", source, "", reason};
+        };
+        const auto& api = program_.api<gault_program_api>();
+        if (api.evaluate(program_.self(), &history, &report, &error) != GAULT_OK)
+            throw std::runtime_error(error.text);
+        return results;
     }
     double dt() const { return last_dt_; }
     void shorten(double part) { last_dt_ *= part; } // what the host does when a step does not converge

@@ -1,7 +1,8 @@
 // What the C++ wrappers promise to both sides of the contract.
-#include "plugin_fixture.hpp"
+#include "program_fixture.hpp"
 
 #include <gault/material.hpp>
+#include <gault/program.hpp>
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ struct Fragile {
     enum class Mode { soft, hard };
     static constexpr const char* modes[] = {"soft", "hard", nullptr};
 
-    double limit, half;
+    double limit, half, fraction;
     int count;
     bool loud;
     Mode mode;
@@ -50,7 +51,8 @@ struct Fragile {
         gault::parameter<&Fragile::label>("label", "", "", "A text.").optional(),
         gault::parameter<&Fragile::numbers>("numbers", "", "Pa", "A list.").optional(),
         gault::table<&Fragile::table>("table", "s", "Pa", "A table.").optional(),
-        gault::parameter<&Fragile::phases>("phases", "", "1", "Records.").optional()};
+        gault::parameter<&Fragile::phases>("phases", "", "1", "Records.").optional(),
+        gault::parameter<&Fragile::fraction>("fraction", "", "1", "Of a step.").fallback(0.5)};
     static constexpr std::array states{gault::symmetric_state("back_stress", "Pa", "Kept."),
                                        gault::scalar_state("steps", "1", "Counted.", 0.0, 0.0)};
     static constexpr int steps = gault::state_index(states, "steps");
@@ -62,7 +64,7 @@ struct Fragile {
     }
     void update(gault::Point& p) const {
         p.fail(p.strain[0] > limit, "torn");
-        p.retry(p.strain[1] > limit, 0.5);
+        p.retry(p.strain[1] > limit, fraction);
         p.retry(p.strain[1] > 2.0 * limit, 0.25);
         if (any(p.strain[2] > limit)) throw std::runtime_error("burst");
         p.set_state(steps, p.state_old(steps) + 1.0);
@@ -96,7 +98,7 @@ TEST(Wrapper, DeclaresBoundsDefaultsAndWhatIsRequired) {
     EXPECT_EQ(count.fallback, 3.0);
     EXPECT_EQ(count.max, HUGE_VAL);
     EXPECT_STREQ(module.components[0]->parameters[7]->kinds[1]->name, "stretch");
-    EXPECT_EQ(module.components[0]->parameters[8], nullptr);
+    EXPECT_EQ(module.components[0]->parameters[9], nullptr);
 }
 
 TEST(Wrapper, BindsEveryTypeOfParameterToItsMember) {
@@ -168,6 +170,63 @@ TEST(Wrapper, AsksForTheSmallestOfTheStepsThatPointsWant) {
     b.strain[1][11] = 0.3;
     EXPECT_EQ(b.update(), GAULT_RETRY);
     EXPECT_EQ(b.suggested(), 0.25);
+}
+
+// Records the square of the time; derives its mean slope, or says that there is none.
+struct Parabola {
+    static constexpr const char* name = "parabola";
+    static constexpr const char* version = "1.0.0";
+    static constexpr const char* doc = "For tests.";
+    static constexpr std::array controls{gault::signal("speed", "m/s", "Needed."),
+                                         gault::optional(gault::signal("drive", "1", "Not needed.", 1.0))};
+    static constexpr std::array records{gault::signal("square", "s^2", "Of the time.")};
+    void advance(gault::Step& step) const {
+        step.record(0) = step.time() * step.time();
+        step.emit();
+    }
+    void evaluate(const gault::History& history, gault::Report& report) const {
+        const int64_t last = history.rows() - 1;
+        if (last < 1) return report.absent("slope", "too few rows: " + std::to_string(last + 1), "Euclid");
+        if (history.time(last) > 100.0) throw std::runtime_error("too late");
+        report.result("slope", "s", (history.record(0, last) - history.record(0, 0)) / history.time(last),
+                      "Newton", "a mean");
+    }
+};
+constexpr gault_module programs = gault::detail::module<gault::Program<Parabola>>("p", "1.0.0", "a", "MIT");
+
+TEST(Wrapper, LetsAProgramDeriveResultsFromItsHistory) {
+    const Component c(programs, GAULT_PROGRAM, "parabola", {});
+    plugin_test::ProgramRun run(c);
+    EXPECT_EQ(run.evaluate({}).at("slope").reason, "too few rows: 0");
+    for (const double time : {0.0, 1.0, 3.0}) {
+        run.time = time;
+        ASSERT_EQ(run.advance(1.0), GAULT_OK);
+    }
+    const auto results = run.evaluate({0.0, 1.0, 3.0});
+    ASSERT_EQ(results.size(), 1u);
+    EXPECT_EQ(results.at("slope").value, 3.0);
+    EXPECT_EQ(results.at("slope").unit, "s");
+    EXPECT_EQ(results.at("slope").source, "Newton");
+    EXPECT_EQ(results.at("slope").note, "a mean");
+    EXPECT_THROW(run.evaluate({0.0, 1.0, 300.0}), std::runtime_error);
+    EXPECT_STREQ(run.error.text, "too late");
+}
+
+TEST(Wrapper, SaysWhichControlsNeedNoListener) {
+    const auto& signals = *static_cast<const gault_program_api*>(programs.components[0]->api)->signals;
+    EXPECT_EQ(signals.controls[0].flags, 0u);
+    EXPECT_EQ(signals.controls[1].flags, +GAULT_SIGNAL_OPTIONAL);
+    EXPECT_EQ(signals.controls[1].initial, 1.0);
+}
+
+TEST(Wrapper, AsksForHalfAStepWhereTheFractionIsNone) {
+    for (const double fraction : {0.0, 1.0, 7.0, std::nan("")}) {
+        const Component c = fragile({{"fraction", fraction}});
+        Batch b(c, 3);
+        b.strain[1][1] = 0.15;
+        EXPECT_EQ(b.update(), GAULT_RETRY) << fraction;
+        EXPECT_EQ(b.suggested(), 0.5) << fraction;
+    }
 }
 
 TEST(Wrapper, KeepsStatesAndStressThatAModelLeavesAlone) {

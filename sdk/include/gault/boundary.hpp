@@ -1,6 +1,7 @@
 // clang-format off
 // A boundary condition as one C++ struct. It says what it wants, node by node or facet by facet; the host imposes
-// it, under every solver. Normals point out of the soil. Asked anew at every step, on the [main] thread.
+// it, under every solver. Normals point out of the soil. Asked on the [main] thread, any number of times a step, also at
+// trial states: the answer depends on the node or facet alone.
 //
 //   struct Support { // name, version, doc, parameters, prepare(): see component.hpp
 //       static constexpr std::array controls{gault::signal("pressure", "Pa", "Commanded by a program.", 0.0)};
@@ -27,7 +28,7 @@ class Node {
     double normal(int axis) const { return nodes_->normal[axis][i_]; }             // unit vector
     double displacement(int axis) const { return nodes_->displacement[axis][i_]; } // m
 
-    void prescribe(int axis, double velocity) { // m/s
+    void prescribe(int axis, double velocity) { // m/s, constant over the step
         nodes_->fixed[axis][i_] = 1.0;
         nodes_->velocity[axis][i_] = velocity;
     }
@@ -47,8 +48,9 @@ class Facet {
     double position(int axis) const { return facets_->position[axis][i_]; }         // m
     double normal(int axis) const { return facets_->normal[axis][i_]; }             // unit vector
     double displacement(int axis) const { return facets_->displacement[axis][i_]; } // m
-    double velocity(int axis) const { return facets_->velocity[axis][i_]; }         // m/s
-    double p_impedance() const { return facets_->impedance[0][i_]; }    // Pa s/m, of the soil behind
+    double velocity(int axis) const { return facets_->velocity[axis][i_]; }         // m/s; see gault.h
+    // Of the soil behind, at the start of the run.
+    double p_impedance() const { return facets_->impedance[0][i_]; }    // Pa s/m
     double s_impedance() const { return facets_->impedance[1][i_]; }    // Pa s/m
     double shear_modulus() const { return facets_->shear_modulus[i_]; } // Pa
     double initial_traction(int axis) const { return facets_->initial_traction[axis][i_]; } // Pa
@@ -58,7 +60,9 @@ class Facet {
         facets_->traction[axis][i_] = traction;
     }
     bool wants_slope() const { return facets_->slope[0] != nullptr; }
-    void set_slope(int i, int j, double slope) { facets_->slope[3 * i + j][i_] = slope; } // Pa/m, see gault.h
+    // -d traction[i] / d displacement[j] at fixed time, Pa/m, 0 unless it is set. A load that depends on the
+    // velocity counts, too: a displacement moves the velocity by 1 / dt.
+    void set_slope(int i, int j, double slope) { facets_->slope[3 * i + j][i_] = slope; }
 
   private:
     const gault_facets* facets_;

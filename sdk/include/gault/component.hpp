@@ -362,7 +362,7 @@ constexpr Parameter table(const char* name, const char* x_unit, const char* unit
 
 // A named scalar that is measured, commanded, remembered or recorded.
 constexpr gault_signal signal(const char* name, const char* unit, const char* doc, double initial = 0.0) {
-    return {name, unit, doc, initial};
+    return {name, unit, doc, initial, 0, 0};
 }
 
 } // namespace GAULT_ISA

@@ -47,8 +47,8 @@ extern "C" {
 /* True when `field` lies inside the size that the struct's writer declared. */
 #define GAULT_HAS(ptr, type, field) ((ptr)->size >= offsetof(type, field) + sizeof((ptr)->field))
 
-/* Fixed capacities, so that gault_points is a flat value. GAULT_LANES: array lengths are multiples of it. */
-enum { GAULT_LANES = 8, GAULT_MAX_STATE = 48, GAULT_MAX_INPUT = 16, GAULT_TEXT = 512 };
+/* Lengths of arrays of points, nodes and facets are multiples of GAULT_LANES. */
+enum { GAULT_LANES = 8, GAULT_TEXT = 512 };
 
 typedef uint32_t gault_status;
 enum {
@@ -176,9 +176,12 @@ typedef struct gault_module {      /* the first 24 bytes are [frozen] for ever; 
 
 GAULT_EXTERN_C GAULT_EXPORT const gault_module GAULT_ENTRY; /* what a plugin defines */
 
+enum { GAULT_SIGNAL_OPTIONAL = 1u << 0 }; /* a program's control: where nobody listens, it commands nobody */
+
 typedef struct gault_signal { /* [frozen] a named scalar: measured, commanded, remembered or recorded */
     const char *name, *unit, *doc;
     double initial;
+    uint32_t flags, reserved; /* 0, as far as nothing here says otherwise; a host refuses what it does not know */
 } gault_signal;
 
 /* ---- kind: material ----------------------------------------------------------------------------------- */
@@ -204,14 +207,17 @@ typedef struct gault_points { /* [grows] */
     const double *strain[6];                  /* increment: log strain of the step, in the rotated frame */
     const double *stress_old[6];              /* Cauchy stress at the start, rotated; Pa */
     double *stress[6];                        /* out: Cauchy stress at the end; Pa */
-    const double *state_old[GAULT_MAX_STATE]; /* declared states one after another, component by component; rotated */
-    double *state[GAULT_MAX_STATE];           /* out: every component is written, changed or not */
-    const double *input[GAULT_MAX_INPUT];     /* host fields that the material asked for, in its order */
+    const double *const *state_old;           /* one array a component: declared states one after another; rotated */
+    double *const *state;                     /* out: every component is written, changed or not */
+    const double *const *input;               /* host fields that the material asked for, in its order */
     double *modulus;       /* out, if not NULL: an upper bound of the P-wave modulus, Pa (sets the time step) */
     double *shear_modulus; /* out, if not NULL: the elastic G, Pa (far fields, dashpots) */
     double *tangent[36];   /* out, if tangent[0]: d stress / d strain of this update, row-major over xx yy zz xy yz zx.
-                              Column xy: the change for a unit TENSOR strain xy (xy and yx together). Unsymmetric in general */
-    double suggest;        /* out with GAULT_RETRY: fraction of dt worth trying, 0 < suggest < 1 */
+                              Column xy: the change for a unit TENSOR strain xy (xy and yx together). Unsymmetric in
+                              general. GAULT_FINITE_STRAIN: d stress / d e of the Cauchy stress returned where F_new
+                              becomes exp(e) F_new, e symmetric, at e = 0; F_old and the old stress stay */
+    double suggest;        /* out with GAULT_RETRY: fraction of dt worth trying, 0 < suggest < 1. Without tangent[0] the
+                              host may divide the increment of this batch; with it the whole step becomes shorter */
     const double *F_old[9], *F_new[9]; /* deformation gradient, row-major; NULL unless GAULT_FINITE_STRAIN */
 } gault_points;
 
@@ -226,7 +232,7 @@ enum {
 typedef struct gault_material_api { /* [grows] */
     uint32_t size;
     uint32_t flags;
-    const gault_state *states; /* state_count of them; an upper bound on components is GAULT_MAX_STATE */
+    const gault_state *states; /* state_count of them */
     const char *const *inputs; /* NULL-terminated; may be NULL */
     uint32_t state_count;
     uint32_t reserved;
@@ -241,7 +247,9 @@ typedef struct gault_material_api { /* [grows] */
 /* ---- kind: boundary -----------------------------------------------------------------------------------
  * A boundary condition says what it wants; the host imposes it. The same plugin therefore serves the explicit and
  * an implicit solver, either frame, and a grid that it never sees. Asked anew at every step, so a program may
- * switch a wall between pressure and displacement. Normals point out of the soil. */
+ * switch a wall between pressure and displacement. Either function is called once for every surface that the
+ * condition is on, and any number of times a step, also at trial states that the host gives up: the answer depends on
+ * the arguments alone. Normals point out of the soil. */
 
 typedef struct gault_nodes { /* [grows] grid nodes on the selected surfaces, struct of arrays */
     uint32_t size;
@@ -251,22 +259,25 @@ typedef struct gault_nodes { /* [grows] grid nodes on the selected surfaces, str
     const double *position[3], *normal[3], *displacement[3];
     const double *control; /* set points that a program commands, in the order of `controls` */
     double *fixed[3];      /* out, zero on entry: 1 where the component is prescribed */
-    double *velocity[3];   /* out: its value at `time`, m/s */
+    double *velocity[3];   /* out: its value, m/s, constant over the step: the host moves the node by velocity * dt */
 } gault_nodes;
 
 typedef struct gault_facets { /* [grows] quadrature points on the selected surfaces, struct of arrays */
     uint32_t size;
     uint32_t reserved;
     int64_t count, padded;
-    double time, dt;
-    const double *position[3], *normal[3], *displacement[3], *velocity[3];
-    const double *impedance[2];        /* rho c_p, rho c_s of the soil behind, Pa s/m: absorbing conditions */
-    const double *shear_modulus;       /* of the soil behind, Pa: an elastic far field */
+    double time, dt; /* at the end of the step, which loads act at; its length */
+    const double *position[3], *normal[3], *displacement[3];
+    const double *velocity[3];         /* without inertia: the displacement of the step over dt */
+    const double *impedance[2];        /* rho c_p, rho c_s of the soil behind at the start of the run, Pa s/m: absorbing
+                                          conditions */
+    const double *shear_modulus;       /* of the soil behind at the start of the run, Pa: an elastic far field */
     const double *initial_traction[3]; /* in balance with the initial stress, Pa */
     const double *control;
     double *pressure;    /* out, zero on entry: follower load along -normal, Pa; the host knows its stiffness */
     double *traction[3]; /* out, zero on entry: Pa per current area, in fixed directions */
-    double *slope[9];    /* out, if slope[0]: -d traction_i / d displacement_j, Pa/m, row-major (implicit solver) */
+    double *slope[9];    /* out, zero on entry, if slope[0]: -d traction_i / d displacement_j, Pa/m, row-major, for an
+                            implicit solver. The total derivative at fixed time: displacement moves velocity by 1 / dt */
 } gault_facets;
 
 typedef struct gault_boundary_api { /* [grows] at least one of the two functions */
@@ -280,16 +291,18 @@ typedef struct gault_boundary_api { /* [grows] at least one of the two functions
 } gault_boundary_api;
 
 /* ---- kind: program ------------------------------------------------------------------------------------
- * Reads measures, writes controls, remembers through host-owned memory, emits rows, names its next event. Called once
- * before the first step (index 0, dt 0) and at the end of every step, with that time's measures. When a step is
- * rejected and repeated, memory and controls are put back. */
+ * Reads measures, writes controls, remembers through host-owned memory, emits rows, names its next event. advance() is
+ * called once before the first step (index 0, dt 0) and at the end of every step, with that time's measures. Whenever
+ * a step is taken back, the call that began it is made again: the same index, time, dt and measures, memory and
+ * controls as before that call, and a new next_dt; `emit` is then ignored. */
 
 typedef struct gault_step { /* [grows] */
     uint32_t size;
     uint32_t done; /* out: the protocol is complete */
     int64_t index;
     double time, dt;       /* now; the length of the step that ended, s */
-    double smallest_dt;    /* the step length that the host is about to use, s */
+    double next_dt;        /* the longest that the coming step will be, s; it ends earlier at `next`, or when the host
+                              shortens it */
     const double *measure; /* in the declared order */
     double *control;       /* in/out: set points for the step that begins now */
     double *memory;        /* in/out */
@@ -312,6 +325,25 @@ typedef struct gault_program_signals { /* [grows] */
     uint32_t measure_count, control_count, memory_count, record_count;
 } gault_program_signals;
 
+typedef struct gault_history { /* [grows] what a finished run emitted */
+    uint32_t size;
+    uint32_t columns;            /* 1 + the number of records */
+    int64_t rows;
+    const double *const *column; /* time, s, then the records in declared order; each `rows` long */
+} gault_history;
+
+/* Takes results one by one; texts are copied. Names are [a-z][a-z0-9_]*, each at most once. */
+typedef struct gault_report { /* [grows] */
+    uint32_t size;
+    uint32_t reserved;
+    void *host; /* the first argument of both functions */
+    void (*result)(void *host, const char *name, const char *unit, double value,
+                   const char *source,                        /* how it follows: a citation; may be "" */
+                   const char *note) GAULT_NOEXCEPT;          /* what to know before using it; may be "" */
+    void (*absent)(void *host, const char *name, const char *reason, /* why this history has no such result */
+                   const char *source) GAULT_NOEXCEPT;
+} gault_report;
+
 typedef struct gault_program_api { /* [grows] */
     uint32_t size;
     uint32_t flags;
@@ -319,6 +351,8 @@ typedef struct gault_program_api { /* [grows] */
     gault_status (*advance)(const void *self, gault_step *, gault_error *) GAULT_NOEXCEPT; /* [main] */
     /* Signals that depend on the parameters (which control a ramp moves). NULL: `signals` holds. Lives as long as self. */
     const gault_program_signals *(*instance_signals)(const void *self) GAULT_NOEXCEPT; /* [main] */
+    /* Results that follow from the history, once, when the protocol is complete. May be NULL. */
+    gault_status (*evaluate)(const void *self, const gault_history *, gault_report *, gault_error *) GAULT_NOEXCEPT; /* [main] */
 } gault_program_api;
 
 /* ---- kind: observer -----------------------------------------------------------------------------------
@@ -332,9 +366,12 @@ typedef struct gault_sample { /* [grows] all points of the model, struct of arra
     double time;
     const double *position[3], *reference_position[3];
     const double *stress[6];
-    const double *volume;                     /* current, m^3 */
-    const double *field[GAULT_MAX_INPUT];     /* declared `fields`; NULL where no material of the scene has it */
-    double cell_size[2];                      /* largest grid cell along x and y, m */
+    const double *volume;            /* current, m^3 */
+    const double *const *field;      /* declared `fields`: NaN at points whose material lacks the state, NULL where no
+                                        material of the scene has it */
+    const int32_t *material;         /* of every point: an index into material_name */
+    const char *const *material_name; /* as the scene names them; NULL-terminated */
+    double cell_size[2];             /* largest grid cell along x and y, m */
     const double *measure;
     double *result; /* out: one per declared result; NaN: not applicable, left out of the summary */
 } gault_sample;

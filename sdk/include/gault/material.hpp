@@ -87,7 +87,7 @@ class Point {
     GAULT_INLINE Pack F_new(int i, int j) const { return Pack::load(batch_->F_new[3 * i + j] + first_); }
 
     // d stress[row] / d strain[column], where a unit of column xy means strain xy and yx together. All 36 are
-    // due.
+    // due. With finite_strain: see gault_points.
     GAULT_INLINE bool wants_tangent() const { return batch_->tangent[0] != nullptr; }
     GAULT_INLINE void set_tangent(int row, int column, Pack value) {
         value.store(batch_->tangent[6 * row + column] + first_);
@@ -105,7 +105,7 @@ class Point {
     GAULT_INLINE void fail(Mask where, const char* text) {
         if (any(where)) note_failure(where, text);
     }
-    // The increment was too large for the points of `where`: try this fraction of the step.
+    // The increment was too large for the points of `where`: try this fraction of the step, above 0 and below 1.
     GAULT_INLINE void retry(Mask where, double fraction) {
         if (any(where)) note_retry(where, fraction);
     }
@@ -147,6 +147,7 @@ class Point {
             }
     }
     void note_retry(Mask where, double fraction) {
+        if (!(fraction > 0.0 && fraction < 1.0)) fraction = 0.5;
         for (int i = 0; i < pack_lanes; ++i)
             if (lane(where, i) && first_ + i < batch_->count && fraction < outcome_->fraction)
                 outcome_->fraction = fraction;

@@ -29,8 +29,12 @@ class Sample {
         return sample_->stress[component][i];
     }
     double volume(int64_t i) const { return sample_->volume[i]; } // m^3, current
-    bool has_field(int index) const { return sample_->field[index] != nullptr; }
-    double field(int index, int64_t i) const { return sample_->field[index][i]; }
+    bool has_field(int index) const { return sample_->field[index] != nullptr; } // some material has it
+    double field(int index, int64_t i) const {
+        return sample_->field[index][i];
+    } // NaN where the point's material lacks it
+    int material(int64_t i) const { return sample_->material[i]; }
+    const char* material_name(int index) const { return sample_->material_name[index]; } // as in the scene
     double cell_size(int axis) const { return sample_->cell_size[axis]; } // m, of the largest cell
     double measure(int index) const { return sample_->measure[index]; }
     double& result(int index) { return sample_->result[index]; } // NaN, not applicable, until it is set

@@ -1,7 +1,7 @@
 // clang-format off
 // A loading program as one C++ struct: reads measures, sets controls, remembers through memory that the host owns,
-// emits rows. advance() is called once before the first step and at the end of every step, on the [main] thread;
-// when a step is rejected and repeated, memory and controls are put back.
+// emits rows. advance() is called once before the first step and at the end of every step, on the [main] thread; when
+// the host takes a step back, the call that began it is made again, with memory and controls as they were.
 //
 //   struct Protocol { // name, version, doc, parameters, prepare(): see component.hpp
 //       static constexpr std::array measures{gault::signal("radius", "m", "Of the cavity.")}; // names: see gault.h
@@ -12,6 +12,7 @@
 //       void advance(gault::Step& step) const; // signals by index, in the order of these lists
 //
 //       const gault::Signals& instance_signals() const; // in place of the lists: they depend on parameters
+//       void evaluate(const gault::History& history, gault::Report& report) const; // results, once, at the end
 //   };
 //   GAULT_MODULE("protocol", "1.0.0", "A. Author", "MIT", gault::Program<Protocol>)
 // clang-format on
@@ -28,8 +29,7 @@ class Step {
     bool first() const { return step_->index == 0; } // the call before the first step
     double time() const { return step_->time; }      // s, now
     double dt() const { return step_->dt; }          // s, of the step that ended
-    // s, that the host is about to use, unless an event is nearer
-    double next_dt() const { return step_->smallest_dt; }
+    double next_dt() const { return step_->next_dt; } // s, the longest that the coming step will be
     double measure(int i) const { return step_->measure[i]; }
     double& control(int i) { return step_->control[i]; } // for the step that begins now
     double& memory(int i) { return step_->memory[i]; }
@@ -48,6 +48,43 @@ class Step {
   private:
     gault_step* step_;
     bool retried_ = false;
+};
+
+// A control that is commanded where somebody listens to it, and left alone where nobody does.
+constexpr gault_signal optional(gault_signal control) {
+    control.flags |= GAULT_SIGNAL_OPTIONAL;
+    return control;
+}
+
+// The rows that the run emitted.
+class History {
+  public:
+    explicit History(const gault_history* history) : history_(history) {}
+
+    int64_t rows() const { return history_->rows; }
+    double time(int64_t row) const { return history_->column[0][row]; } // s
+    double record(int index, int64_t row) const { return history_->column[1 + index][row]; }
+
+  private:
+    const gault_history* history_;
+};
+
+// Takes what follows from a history. Each name once, [a-z][a-z0-9_]*; `source` is a citation.
+class Report {
+  public:
+    explicit Report(gault_report* report) : report_(report) {}
+
+    void result(const std::string& result_name, const std::string& unit, double value,
+                const std::string& source = "", const std::string& note = "") {
+        report_->result(report_->host, result_name.c_str(), unit.c_str(), value, source.c_str(),
+                        note.c_str());
+    }
+    void absent(const std::string& result_name, const std::string& reason, const std::string& source = "") {
+        report_->absent(report_->host, result_name.c_str(), reason.c_str(), source.c_str());
+    }
+
+  private:
+    gault_report* report_;
 };
 
 // Signals that depend on parameters: fill the lists in prepare(), then declare(). Texts live as long as the
@@ -108,6 +145,23 @@ template <class T>
 struct has_instance_signals<T, std::void_t<decltype(std::declval<const T&>().instance_signals())>>
     : std::true_type {};
 
+template <class T, class = void>
+struct has_evaluate : std::false_type {};
+template <class T>
+struct has_evaluate<T, std::void_t<decltype(std::declval<const T&>().evaluate(
+                           std::declval<const History&>(), std::declval<Report&>()))>> : std::true_type {};
+
+template <class T>
+gault_status evaluate_history(const void* self, const gault_history* raw, gault_report* to,
+                              gault_error* error) noexcept {
+    return guarded(error, [&]() -> gault_status {
+        const History history(raw);
+        Report results(to);
+        static_cast<const T*>(self)->evaluate(history, results);
+        return GAULT_OK;
+    });
+}
+
 template <class T>
 gault_status advance(const void* self, gault_step* raw, gault_error* error) noexcept {
     return guarded(error, [&]() -> gault_status {
@@ -150,6 +204,7 @@ constexpr gault_program_api program_api(const gault_program_signals* signals) {
     a.signals = signals;
     a.advance = &advance<T>;
     if constexpr (has_instance_signals<T>::value) a.instance_signals = &instance_signals<T>;
+    if constexpr (has_evaluate<T>::value) a.evaluate = &evaluate_history<T>;
     return a;
 }
 

@@ -26,6 +26,9 @@
 #ifndef PARAMETERS
 #define PARAMETERS &stiffness, NULL
 #endif
+#ifndef MORE
+#define MORE
+#endif
 #ifndef COMPONENTS
 #define COMPONENTS &soil, NULL
 #endif
@@ -65,7 +68,7 @@ static const gault_state states[] = {
 static const gault_material_api api = {
     .size = sizeof(gault_material_api), .states = states, .state_count = 1, .update = update, API};
 
-static const gault_component soil = {.size = sizeof(gault_component),
+__attribute__((unused)) static const gault_component soil = {.size = sizeof(gault_component),
                                      .kind = GAULT_MATERIAL,
                                      .name = NAME,
                                      .version = "1.0.0",
@@ -76,6 +79,7 @@ static const gault_component soil = {.size = sizeof(gault_component),
                                      .create = create,
                                      .destroy = destroy,
                                      COMPONENT};
+MORE
 static const gault_component* const components[] = {COMPONENTS};
 
 #ifndef ENTRY

@@ -25,7 +25,7 @@ static gault_status create(const gault_host* host, const gault_value* values, vo
         return GAULT_FAILED;
     }
     *soil = (Soil){values[STIFFNESS].real, values[GROWTH].real, values[POISSON_RATIO].real};
-    if (GAULT_HAS(host, gault_host, log)) host->log(host->self, GAULT_DEBUG, "hypoelastic: created");
+    host->log(host->self, GAULT_DEBUG, "hypoelastic: created");
     *self = soil;
     return GAULT_OK;
 }

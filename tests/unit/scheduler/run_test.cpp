@@ -130,7 +130,7 @@ TEST_F(Running, TheProgramRemembersAndIsAskedOnceBeforeTheFirstStep) {
         if (calls.empty()) {
             EXPECT_EQ(step.index, 0);
             EXPECT_EQ(step.dt, 0.0);
-            EXPECT_GT(step.smallest_dt, 0.0);
+            EXPECT_GT(step.next_dt, 0.0);
         }
         calls.push_back(step.memory[0]);
         step.memory[0] += 1.0;

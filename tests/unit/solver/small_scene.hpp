@@ -159,6 +159,7 @@ class TestProgram : public TestComponent {
   public:
     std::vector<gault_signal> measures, controls, memories, records;
     std::function<gault_status(gault_step&, gault_error&)> advance;
+    std::function<gault_status(const gault_history&, gault_report&, gault_error&)> evaluate; // may be empty
 
     TestProgram() : TestComponent(GAULT_PROGRAM, "test_program") {}
 
@@ -169,16 +170,51 @@ class TestProgram : public TestComponent {
                     memories.data(), records.data(),
                     count(measures), count(controls),
                     count(memories), count(records)};
-        api_ = {sizeof api_, 0, &signals_, nullptr, nullptr};
+        api_ = {};
+        api_.size = sizeof api_;
+        api_.signals = &signals_;
         api_.advance = [](const void* self, gault_step* s, gault_error* e) noexcept {
             return static_cast<const TestProgram*>(self)->advance(*s, *e);
         };
+        if (evaluate)
+            api_.evaluate = [](const void* self, const gault_history* h, gault_report* r,
+                               gault_error* e) noexcept {
+                return static_cast<const TestProgram*>(self)->evaluate(*h, *r, *e);
+            };
         return TestComponent::use(&api_);
     }
 
   private:
     gault_program_signals signals_{};
     gault_program_api api_{};
+};
+
+class TestObserver : public TestComponent {
+  public:
+    std::vector<gault_signal> measures, results;
+    std::vector<const char*> fields;
+    std::function<gault_status(gault_sample&, gault_error&)> evaluate;
+
+    TestObserver() : TestComponent(GAULT_OBSERVER, "test_observer") {}
+
+    ComponentUse use() {
+        fields.push_back(nullptr);
+        api_ = {sizeof api_,
+                0,
+                measures.data(),
+                results.data(),
+                fields.data(),
+                static_cast<uint32_t>(measures.size()),
+                static_cast<uint32_t>(results.size()),
+                nullptr};
+        api_.evaluate = [](const void* self, gault_sample* s, gault_error* e) noexcept {
+            return static_cast<const TestObserver*>(self)->evaluate(*s, *e);
+        };
+        return TestComponent::use(&api_);
+    }
+
+  private:
+    gault_observer_api api_{};
 };
 
 struct Shape {
