@@ -144,60 +144,74 @@ nlohmann::json Verification::finish(const std::vector<std::vector<double>>& rows
     return result;
 }
 
+namespace {
+
+// What all observers see alike; the arrays are those of `points` and `zero`.
+gault_sample sample_of(const PointArrays& points, const std::vector<double>& zero, const Grid& grid,
+                       double time) {
+    gault_sample sample{};
+    sample.size = sizeof sample;
+    sample.count = static_cast<int64_t>(points.volume.size());
+    sample.time = time;
+    for (int k = 0; k < 3; ++k) {
+        sample.position[k] = k < 2 ? points.position[k].data() : zero.data();
+        sample.reference_position[k] = k < 2 ? points.reference[k].data() : zero.data();
+    }
+    for (int k = 0; k < 6; ++k)
+        sample.stress[k] = points.stress[k].data();
+    sample.volume = points.volume.data();
+    sample.material = points.material.data();
+    for (int k = 0; k < 2; ++k)
+        for (const double h : grid.axis(k).length())
+            sample.cell_size[k] = std::max(sample.cell_size[k], h);
+    return sample;
+}
+
+} // namespace
+
 nlohmann::json Verification::observe(Solver& solver) {
     nlohmann::json all = nlohmann::json::object();
     if (observers_.empty()) return all;
     const Motion& motion = solver.motion();
     const PointArrays points = collect(motion);
+    const std::vector<double> zero(points.volume.size());
     std::vector<const char*> material_names;
     for (const Material& material : motion.materials())
         material_names.push_back(material.name().c_str());
     material_names.push_back(nullptr);
+    gault_sample sample = sample_of(points, zero, motion.grid(), solver.time());
+    sample.material_name = material_names.data();
     for (Observer& observer : observers_) {
-        const auto& api = observer.instance.api<gault_observer_api>();
-        gault_sample sample{};
-        sample.size = sizeof sample;
-        sample.count = static_cast<int64_t>(points.volume.size());
-        sample.time = solver.time();
-        for (int k = 0; k < 3; ++k) {
-            const std::size_t n = points.volume.size();
-            static thread_local std::vector<double> zero;
-            zero.assign(n, 0.0);
-            sample.position[k] = k < 2 ? points.position[k].data() : zero.data();
-            sample.reference_position[k] = k < 2 ? points.reference[k].data() : zero.data();
-        }
-        for (int k = 0; k < 6; ++k)
-            sample.stress[k] = points.stress[k].data();
-        sample.volume = points.volume.data();
-        std::vector<std::vector<double>> fields;
-        for (const char* const* name = api.fields; name && *name; ++name)
-            fields.push_back(collect_state(motion, *name));
-        std::vector<const double*> field;
-        for (const std::vector<double>& values : fields)
-            field.push_back(values.empty() ? nullptr : values.data());
-        sample.field = field.data();
-        sample.material = points.material.data();
-        sample.material_name = material_names.data();
-        for (int k = 0; k < 2; ++k)
-            for (const double h : motion.grid().axis(k).length())
-                sample.cell_size[k] = std::max(sample.cell_size[k], h);
-        std::vector<double> measure, result(api.result_count, std::numeric_limits<double>::quiet_NaN());
-        for (const std::string& name : observer.measures)
-            measure.push_back(solver.measure(name, observer.side).value());
-        sample.measure = measure.data();
-        sample.result = result.data();
-        gault_error error{-1, 0, -1, ""};
-        if (api.evaluate(observer.instance.self(), &sample, &error) != GAULT_OK)
-            throw RunError(
-                fmt::format("observer '{}': {}", observer.instance.declaration().name, error_text(error)));
         std::string key = observer.instance.declaration().name;
         for (int n = 2; all.contains(key); ++n)
             key = fmt::format("{}_{}", observer.instance.declaration().name, n);
-        nlohmann::json& j = all[key];
-        for (uint32_t k = 0; k < api.result_count; ++k)
-            if (std::isfinite(result[k])) j[api.results[k].name] = result[k];
+        all[key] = ask(observer, solver, sample);
     }
     return all;
+}
+
+nlohmann::json Verification::ask(const Observer& observer, Solver& solver, gault_sample sample) {
+    const auto& api = observer.instance.api<gault_observer_api>();
+    std::vector<std::vector<double>> states;
+    for (const char* const* name = api.fields; name && *name; ++name)
+        states.push_back(collect_state(solver.motion(), *name));
+    std::vector<const double*> field;
+    for (const std::vector<double>& values : states)
+        field.push_back(values.empty() ? nullptr : values.data());
+    sample.field = field.data();
+    std::vector<double> measure, result(api.result_count, std::numeric_limits<double>::quiet_NaN());
+    for (const std::string& name : observer.measures)
+        measure.push_back(solver.measure(name, observer.side).value());
+    sample.measure = measure.data();
+    sample.result = result.data();
+    gault_error error{-1, 0, -1, ""};
+    if (api.evaluate(observer.instance.self(), &sample, &error) != GAULT_OK)
+        throw RunError(
+            fmt::format("observer '{}': {}", observer.instance.declaration().name, error_text(error)));
+    nlohmann::json j;
+    for (uint32_t k = 0; k < api.result_count; ++k)
+        if (std::isfinite(result[k])) j[api.results[k].name] = result[k];
+    return j;
 }
 
 } // namespace gault::core

@@ -56,6 +56,8 @@ class Verification {
         int side;
         std::vector<std::string> measures;
     };
+    static nlohmann::json ask(const Observer& observer, Solver& solver, gault_sample sample);
+
     std::vector<Curve> curves_;
     std::vector<Profile> profiles_;
     std::vector<Observer> observers_;

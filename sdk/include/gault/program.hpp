@@ -69,7 +69,8 @@ class History {
     const gault_history* history_;
 };
 
-// Takes what follows from a history. Each name once, [a-z][a-z0-9_]*; `source` is a citation.
+// Takes what follows from a history. Each name once, [a-z][a-z0-9_]*; `source` is a citation. A value that is not
+// finite counts as absent.
 class Report {
   public:
     explicit Report(gault_report* report) : report_(report) {}

@@ -5,10 +5,13 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <unistd.h>
 
 namespace gault::core::test {
@@ -22,6 +25,7 @@ class Derived : public testing::Test {
     TestBoundary wall;
     TestProgram program;
     TestObserver observer;
+    bool quiet = true;
     std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("gault-derived-" + std::to_string(getpid()));
     ~Derived() override { std::filesystem::remove_all(folder); }
@@ -48,7 +52,7 @@ class Derived : public testing::Test {
         std::filesystem::remove_all(folder);
         RunOptions options;
         options.folder = folder;
-        options.quiet = true;
+        options.quiet = quiet;
         options.threads = 1;
         run_scene(s.scene, options);
         std::ifstream file(folder / "summary.json");
@@ -88,6 +92,34 @@ TEST_F(Derived, AProgramSeesTheWholeHistoryAndItsResultsAreInTheSummary) {
              {{"value", 5e6}, {"unit", "Pa"}, {"source", "Hooke (1678)"}, {"note", "of the unloading"}}},
             {"strength", {{"absent", "it never yielded"}, {"source", "Tresca (1864)"}}},
             {"ratio", {{"absent", "not a finite number"}, {"source", ""}}}}));
+}
+
+TEST_F(Derived, ALineOfTheReportSaysWhatEveryResultIs) {
+    program.evaluate = [](const gault_history&, gault_report& r, gault_error&) {
+        r.result(r.host, "stiffness", "Pa", 5e6, "", "of the unloading");
+        r.result(r.host, "ratio", "1", 0.25, "", "");
+        r.absent(r.host, "strength", "it never yielded", "");
+        return gault_status(GAULT_OK);
+    };
+    observer.results = {{"error", "1", "", 0.0}};
+    observer.evaluate = [](gault_sample& sample, gault_error&) {
+        sample.result[0] = 0.125;
+        return gault_status(GAULT_OK);
+    };
+    SmallScene s = block();
+    s.scene.observers.push_back({3, observer.use()});
+    std::ostringstream said;
+    const auto before = spdlog::default_logger();
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_st>(said)));
+    spdlog::set_pattern("%v");
+    quiet = false;
+    summary(s);
+    spdlog::set_default_logger(before);
+    for (const char* line :
+         {"\ntest_program stiffness: 5e+06 Pa; of the unloading\n", "\ntest_program ratio: 0.25\n",
+          "\ntest_observer error: 0.125\n", "\ntest_program strength: not derived: it never yielded\n"})
+        EXPECT_NE(said.str().find(line), std::string::npos) << line << said.str();
 }
 
 TEST_F(Derived, AProgramIsAskedOnceAndOnlyWhenItsProtocolIsComplete) {
