@@ -154,7 +154,7 @@ TEST_F(Running, WhatTheProgramCommandsMovesTheWall) {
 TEST_F(Running, WritesTheFramesThatAreDueAndTheLastState) {
     SmallScene s = column(1e-3);
     s.scene.solver.time_step_factor = 0.05;
-    s.scene.frames = {"travel", {0.0, 2e-5, 5e-5}, {}};
+    s.scene.frames = {"travel", {0.0, 2e-5, 5e-5}};
     run(s);
     EXPECT_EQ(summary()["counts"]["frames"], 4); // the last state is none of them
 }
