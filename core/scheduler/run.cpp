@@ -106,7 +106,7 @@ std::vector<ColumnInfo> Run::columns() const {
     std::vector<ColumnInfo> all{{"time", "s", "Time"}};
     all.insert(all.end(), program_.columns().begin(), program_.columns().end());
     all.push_back({"step", "1", "Steps so far"});
-    all.push_back({"kinetic_ratio", "1", "Kinetic energy over internal energy"});
+    all.push_back({"kinetic_ratio", "1", "Kinetic energy over strain energy"});
     all.push_back({"energy_error", "1", "Imbalance of energy over its largest part"});
     all.push_back({"largest_velocity", "m/s", "Of the grid nodes"});
     for (std::size_t k = 0; k < all.size(); ++k)

@@ -268,7 +268,7 @@ typedef struct gault_facets { /* [grows] quadrature points on the selected surfa
     int64_t count, padded;
     double time, dt; /* at the end of the step, which loads act at; its length */
     const double *position[3], *normal[3], *displacement[3];
-    const double *velocity[3];         /* without inertia: the displacement of the step over dt */
+    const double *velocity[3];         /* zero in a solver without inertia: no waves */
     const double *impedance[2];        /* rho c_p, rho c_s of the soil behind at the start of the run, Pa s/m: absorbing
                                           conditions */
     const double *shear_modulus;       /* of the soil behind at the start of the run, Pa: an elastic far field */
@@ -276,8 +276,8 @@ typedef struct gault_facets { /* [grows] quadrature points on the selected surfa
     const double *control;
     double *pressure;    /* out, zero on entry: follower load along -normal, Pa; the host knows its stiffness */
     double *traction[3]; /* out, zero on entry: Pa per current area, in fixed directions */
-    double *slope[9];    /* out, zero on entry, if slope[0]: -d traction_i / d displacement_j, Pa/m, row-major, for an
-                            implicit solver. The total derivative at fixed time: displacement moves velocity by 1 / dt */
+    double *slope[9];    /* out, zero on entry, if slope[0]: -d traction_i / d displacement_j at fixed time, Pa/m,
+                            row-major, for an implicit solver */
 } gault_facets;
 
 typedef struct gault_boundary_api { /* [grows] at least one of the two functions */

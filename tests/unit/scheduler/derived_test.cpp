@@ -180,10 +180,7 @@ TEST_F(Derived, AnObserverSeesNoStateWhereTheMaterialLacksIt) {
     };
     SmallScene s = block();
     s.add(rock, density, "rock");
-    s.scene.regions.push_back({});
-    s.scene.regions[0].material = 1;
-    s.scene.regions[0].lower = {0.0, 0.0};
-    s.scene.regions[0].upper = {0.5, 1.0};
+    s.scene.regions.push_back({"left", 1, {{0, 0}, {2, 3}}, {}});
     s.scene.observers.push_back({3, observer.use()});
     summary(s);
     EXPECT_TRUE(unknown_is_null);
