@@ -8,6 +8,7 @@ import argparse
 import csv
 import json
 import re
+import sys
 from pathlib import Path
 
 import h5py
@@ -37,10 +38,13 @@ def pick(table, *names):
     raise KeyError(names[0])
 
 
-def found(file, folder):
-    """A reference file as written, or from the results' folder or one above it."""
-    places = [Path(file), *(parent / file for parent in (folder.resolve(), *folder.resolve().parents))]
-    return next((place for place in places if place.is_file()), None)
+def found(file, summary):
+    """A reference file, which a summary names relative to the scene's folder; None, with a word, if it is gone."""
+    place = Path(summary["provenance"]["scene"]).parent / file
+    if place.is_file():
+        return place
+    print(f"reference {place} is not there: left out", file=sys.stderr)
+    return None
 
 
 def read_frames(file):
@@ -61,12 +65,12 @@ def has_curve(history):
     return {"cavity_strain", "true_pressure_Pa"} <= history.keys() and len(history["cavity_strain"]) > 0
 
 
-def draw_curve(axes, folder, history, reference, measured):
+def draw_curve(axes, summary, history, reference, measured):
     strain, pressure = 100 * pick(history, "cavity_strain"), pick(history, "true_pressure")
     peak = int(np.argmax(pressure))
     axes.plot(strain, pressure, color=LINE, lw=2, label="Gault")
     for number, curve in enumerate(reference.get("curves", [])):
-        if "pressure" not in curve.get("y", "true_pressure") or not (file := found(curve["file"], folder)):
+        if "pressure" not in curve.get("y", "true_pressure") or not (file := found(curve["file"], summary)):
             continue
         x, y = list(columns(file).items())[:2]
         axes.plot(100 * x[1], pick(dict([y]), y[0]), color=REFERENCE, lw=1.2, ls="--",
@@ -86,14 +90,14 @@ def frame_label(attributes):
     return f"{attributes['time']:.3g} s"
 
 
-def draw_profiles(axes, folder, frames, reference):
+def draw_profiles(axes, summary, frames, reference):
     if len(frames) > MOST_FRAMES:
         frames = [frames[i] for i in np.unique(np.linspace(0, len(frames) - 1, MOST_FRAMES).round().astype(int))]
     for color, (attributes, radius, stress) in zip(plt.cm.viridis(np.linspace(0, 0.85, len(frames))), frames):
         axes.plot(radius, stress, ".", color=color, ms=8, mew=0, alpha=0.7, label=frame_label(attributes))
     label = "reference"
     for profile in reference.get("profiles", []):
-        if file := found(profile["file"], folder):
+        if file := found(profile["file"], summary):
             table = columns(file)
             axes.plot(pick(table, "current_radius", "radius"), pick(table, "sigma_r"), color=REFERENCE, lw=0.8,
                       label=label)
@@ -145,11 +149,11 @@ def main():
     figure, (left, right) = plt.subplots(1, 2, figsize=(12, 5), layout="constrained")
     figure.suptitle(title or folder.resolve().name)
     if has_curve(history):
-        draw_curve(left, folder, history, reference, arguments.measured)
+        draw_curve(left, summary, history, reference, arguments.measured)
     else:
         left.text(0.5, 0.5, "no cavity pressure curve", ha="center", transform=left.transAxes)
     if frames:
-        draw_profiles(right, folder, frames, reference)
+        draw_profiles(right, summary, frames, reference)
     else:
         right.text(0.5, 0.5, "no frames", ha="center", transform=right.transAxes)
     figure.savefig(arguments.output, dpi=150)

@@ -140,7 +140,7 @@ Provenance Run::provenance() const {
              {"command", options_.command_line},
              {"threads", threads_},
              {"instruction_set", isa_name(best_isa())},
-             {"scene", scene_.file.string()},
+             {"scene", std::filesystem::absolute(scene_.file).string()},
              {"scene_sha256", sha256_of_file(scene_.file)},
              {"plugins", plugins}}};
 }

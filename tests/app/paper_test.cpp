@@ -101,6 +101,52 @@ TEST_F(PaperScenes, FaheysTestMeetsItsReferenceInTheUpdatedFrame) {
     EXPECT_GT(share_that_crossed(72, 0.02, 0.2), 0.2) << "points cross cells there";
 }
 
+struct WithoutInertia {
+    const char* name;
+    Words changes;
+    double pressure, stress; // largest errors
+    int updates;
+};
+class QuasiStaticScenes : public PaperScenes, public testing::WithParamInterface<WithoutInertia> {};
+INSTANTIATE_TEST_SUITE_P(
+    Fahey, QuasiStaticScenes,
+    testing::Values(WithoutInertia{"Radial",
+                                   {"--set", "model.symmetry=radial", "--set", "grid.basis=linear", "--set",
+                                    "points.per_cell=1"},
+                                   2.6e-4, // required: 5e-4, 1e-3, 5000 updates
+                                   1e-3,
+                                   5000},
+                    WithoutInertia{"Axisymmetric", {"--set", "points.per_cell=4"}, 4e-5, 1e-3, 20000},
+                    WithoutInertia{"Updated",
+                                   {"--set", "model.frame=updated", "--set", "model.symmetry=radial", "--set",
+                                    "points.per_cell=4"},
+                                   4e-5,
+                                   2.1e-3,
+                                   20000}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST_P(QuasiStaticScenes, MeetTheReferenceInTwentySteps) {
+    Words changes = GetParam().changes;
+    changes.insert(changes.end(), {"--set", "model.solver=quasi_static"});
+    run("configs/paper/fahey.yaml", changes);
+    const auto all = summary(results);
+    EXPECT_LE(all["reference"]["curves"][0]["largest_relative_error"], GetParam().pressure);
+    for (const auto& profile : all["reference"]["profiles"]) {
+        EXPECT_LE(profile["sigma_r_l2"], GetParam().stress);
+        EXPECT_LE(profile["sigma_theta_l2"], GetParam().stress);
+    }
+    EXPECT_LE(all["counts"]["constitutive_updates"], GetParam().updates);
+    EXPECT_LE(all["counts"]["steps"], 25);
+}
+
+TEST_F(PaperScenes, CylindersWithoutInertiaMeetTheClosedForms) {
+    const Words still{"--set", "model.solver=quasi_static", "--force"};
+    run("configs/paper/case2.yaml", still);
+    expect_cylinder(1.7e-4, 0.9e-4, 4.4e-4);
+    run("configs/paper/case3.yaml", still);
+    expect_cylinder(6e-4, 5.3e-4, 2e-5); // the wall is where the finite-strain closed form has it
+}
+
 TEST_F(PaperScenes, FaheysTestHardlyFeelsItsMassScaling) {
     const Words coarse{"--force", "--set", "grid.cells=[36, 1]"};
     run("configs/paper/fahey.yaml", coarse);
