@@ -275,7 +275,7 @@ TEST(Scene, TakesTheLeastThatIsEnoughAndSaysWhy) {
         (std::vector<std::string>{
             "title: cylinder (the name of the file)",
             "model.symmetry: axisymmetric (the geometry is a cylinder)",
-            "model.frame: total (material stays in place)", "model.solver: explicit (the only one there is)",
+            "model.frame: total (material stays in place)", "model.solver: explicit (nothing is assumed about inertia)",
             "grid.grading.r: 1 (equal cells)", "grid.grading.y: 1 (equal cells)",
             "grid.basis: quadratic (smooth gradients, so no noise where points cross cells)",
             "points.per_cell: 16 (four a direction)",
