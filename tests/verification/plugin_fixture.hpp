@@ -214,6 +214,7 @@ class Batch {
         for (std::size_t i = 0; i < state.size(); ++i)
             copy(state[i], state_old[i]);
     }
+    void set_dt(double dt) { points_.dt = dt; } // 1 s unless told
     void set_strain(int64_t point, const Tensor& value) { set(strain, point, value); }
     void set_stress_old(int64_t point, const Tensor& value) { set(stress_old, point, value); }
     Tensor stress_at(int64_t point) const {
