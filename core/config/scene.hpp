@@ -120,6 +120,10 @@ struct Scene {
     std::array<GridAxis, 2> axes;
     int points_per_cell; // a square number; in radial symmetry any, along the radius
     Placement placement;
+    std::size_t points() const {
+        return static_cast<std::size_t>(axes[0].cells) * static_cast<std::size_t>(axes[1].cells) *
+               static_cast<std::size_t>(points_per_cell);
+    }
 
     std::vector<MaterialUse> materials;
     int base_material; // of the soil outside every region

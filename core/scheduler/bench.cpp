@@ -1,7 +1,6 @@
 #include "core/scheduler/bench.hpp"
-#include "core/scheduler/program.hpp"
+#include "core/scheduler/simulation.hpp"
 #include "core/scheduler/verification.hpp"
-#include "core/solver/explicit.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -42,54 +41,49 @@ double column_bytes(const Motion& motion) {
     return bytes / static_cast<double>(motion.point_count());
 }
 
+std::vector<BenchReport::Phase> phases(const PhaseClock& clock, double seconds) {
+    const double known = clock.strain + clock.material + clock.force + clock.velocity + clock.sort;
+    std::vector<BenchReport::Phase> all{{"strain", clock.strain}, {"material", clock.material},
+                                        {"force", clock.force},   {"velocity", clock.velocity},
+                                        {"sort", clock.sort},     {"grid and boundaries", seconds - known}};
+    for (auto& phase : all)
+        phase.share /= seconds;
+    return all;
+}
+
 } // namespace
 
 BenchReport bench_scene(const Scene& scene, int threads, double share) {
-    Model model = build_model(scene);
-    ExplicitSolver solver(scene, model, threads);
-    Program program(scene, solver);
-    std::vector<ColumnInfo> columns{{"time", "s", "Time"}};
-    columns.insert(columns.end(), program.columns().begin(), program.columns().end());
-    const Verification verification(scene, columns);
+    Simulation simulation(scene, threads);
+    Solver& solver = simulation.solver();
+    const Verification verification(scene, simulation.columns());
     std::vector<std::vector<double>> rows;
-    const auto row = [&] {
-        rows.push_back({solver.time()});
-        rows.back().insert(rows.back().end(), program.record().begin(), program.record().end());
-    };
 
     BenchReport report{};
-    report.points = solver.motion().point_count();
+    report.points = simulation.points();
     report.curve_error = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> before;
     std::chrono::steady_clock::time_point start;
     int64_t first = -1;
-    Program::Answer answer = program.advance(0.0, solver.allowed_step());
-    row();
-    while (!answer.done) {
-        if (first < 0 && solver.time() >= (1.0 - share) * answer.next) {
+    simulation.start();
+    rows.push_back(simulation.row());
+    while (!simulation.done()) {
+        if (first < 0 && solver.time() >= (1.0 - share) * simulation.next_event()) {
             first = solver.steps();
             before = first_state(solver.motion());
             solver.motion().clock() = {};
             solver.motion().clock().on = true;
             start = std::chrono::steady_clock::now();
         }
-        const double dt = std::min(solver.allowed_step(), answer.next - solver.time());
-        solver.step(dt);
-        answer = program.advance(dt, solver.allowed_step());
-        if (answer.emit) row();
+        if (simulation.step() == Simulation::Moved::yes && simulation.row_due())
+            rows.push_back(simulation.row());
     }
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.steps = solver.steps() - first;
     report.point_steps =
         static_cast<double>(report.steps) * static_cast<double>(report.points) / report.seconds;
     report.changing = changed(before, first_state(solver.motion()), report.points);
-    const PhaseClock& clock = solver.motion().clock();
-    const double known = clock.strain + clock.material + clock.force + clock.velocity + clock.sort;
-    report.phases = {{"strain", clock.strain}, {"material", clock.material},
-                     {"force", clock.force},   {"velocity", clock.velocity},
-                     {"sort", clock.sort},     {"grid and boundaries", report.seconds - known}};
-    for (auto& phase : report.phases)
-        phase.share /= report.seconds;
+    report.phases = phases(solver.motion().clock(), report.seconds);
     report.bytes_per_point = column_bytes(solver.motion());
     const nlohmann::json errors = verification.finish(rows);
     if (errors.contains("curves")) report.curve_error = errors["curves"][0]["largest_relative_error"];
@@ -100,15 +94,10 @@ double peak_memory(const Scene& scene) {
     const pid_t child = fork();
     if (child == 0) {
         try {
-            Model model = build_model(scene);
-            ExplicitSolver solver(scene, model, 1);
-            Program program(scene, solver);
-            program.advance(0.0, solver.allowed_step());
-            for (int i = 0; i < 3; ++i) {
-                const double dt = solver.allowed_step();
-                solver.step(dt);
-                program.advance(dt, dt);
-            }
+            Simulation simulation(scene, 1);
+            simulation.start();
+            for (int i = 0; i < 3; ++i)
+                simulation.step();
         } catch (...) {
             _exit(1);
         }

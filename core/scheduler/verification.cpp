@@ -80,13 +80,6 @@ Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& co
     }
 }
 
-bool Crossing::reached(double now) {
-    const double distance = now - target_, before = std::exchange(before_, now) - target_;
-    if (done_) return false;
-    done_ = std::abs(distance) <= 1e-9 * std::abs(target_) || before * distance < 0.0;
-    return done_;
-}
-
 void Verification::at(const std::string& measure, double value, const Motion& motion) {
     for (Profile& profile : profiles_) {
         if (profile.measure != measure || !profile.value.reached(value)) continue;

@@ -4,6 +4,7 @@
 #include "core/output/compare.hpp"
 #include "core/output/results.hpp"
 #include "core/registry/instance.hpp"
+#include "core/scheduler/crossing.hpp"
 #include "core/solver/solver.hpp"
 
 #include <limits>
@@ -12,19 +13,6 @@
 #include <vector>
 
 namespace gault::core {
-
-// Notices when a quantity reaches or passes a value, in either direction, for the first time.
-class Crossing {
-  public:
-    explicit Crossing(double target) : target_(target) {}
-    double target() const { return target_; }
-    bool done() const { return done_; }
-    bool reached(double now); // true once
-
-  private:
-    double target_, before_ = std::numeric_limits<double>::quiet_NaN();
-    bool done_ = false;
-};
 
 class Verification {
   public:

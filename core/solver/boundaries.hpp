@@ -35,6 +35,9 @@ class Boundaries {
               Stiffness* stiffness = nullptr);
     // Of the last load: the force on a side, N.
     const std::array<double, 2>& load_on(int side) const { return load_on_[side]; }
+    using Loads = std::array<std::array<double, 2>, 4>; // of every side
+    const Loads& loads() const { return load_on_; }
+    void restore(const Loads& loads) { load_on_ = loads; }
 
     Surface& surface(int side) { return surfaces_[side]; }
     const Surface& surface(int side) const { return surfaces_[side]; }
@@ -76,7 +79,7 @@ class Boundaries {
     [[noreturn]] void refuse(const Condition& condition, gault_status status, const gault_error& error) const;
 
     std::vector<Surface> surfaces_;
-    std::array<std::array<double, 2>, 4> load_on_{};
+    Loads load_on_{};
     std::vector<Condition> conditions_;
 };
 

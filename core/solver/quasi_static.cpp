@@ -17,8 +17,9 @@ constexpr double growth = 10.0;   // of a step over the one before
 
 QuasiStaticSolver::QuasiStaticSolver(const Scene& scene, Model& model, int threads)
     : Solver(scene, model, threads), equilibrium_(model, *motion_), stiffness_(model.grid),
-      du_(model.grid.layout()), du_before_(du_), correction_(du_), wanted_(du_), internal_before_(internal_),
-      traction_before_(du_), still_(du_), allowed_(std::numeric_limits<double>::infinity()) {}
+      du_(model.grid.layout()), du_before_(du_), correction_(du_),
+      wanted_(du_), before_{internal_, traction_, fixed_, {}, {}}, still_(du_),
+      allowed_(std::numeric_limits<double>::infinity()) {}
 
 template <class F>
 void QuasiStaticSolver::each_component(F f) const {
@@ -35,10 +36,9 @@ bool QuasiStaticSolver::step(double dt) {
             "the program names no time for its next event, and a quasi-static step has no other length");
     load_first();
     least_ = std::max(least_, shortest * dt);
+    if (std::isfinite(allowed_)) usual_ = std::max(usual_, allowed_);
     start_ = motion_->save();
-    energies_before_ = energies_;
-    internal_before_ = internal_;
-    traction_before_ = traction_;
+    before_ = {internal_, traction_, fixed_, boundaries_.loads(), energies_};
     boundaries_.constrain(*motion_, time_ + dt, dt, fixed_, value_);
     const double ratio = dt_before_ > 0.0 ? dt / dt_before_ : 0.0; // as the last step went on
     each_component([&](Eigen::Index, int k, std::size_t n) {
@@ -59,16 +59,18 @@ bool QuasiStaticSolver::step(double dt) {
     account(dt);
     du_before_ = du_;
     dt_before_ = dt;
-    allowed_ = dt * std::clamp(settings_.strain_step / largest_strain_, 0.5, growth);
+    const double wanted_share = settings_.strain_step / largest_strain_;
+    // An event that cut a step short says nothing about the next one.
+    allowed_ = std::min(dt * std::max(wanted_share, 0.5), std::max(growth * dt, usual_));
+    usual_ = 0.0;
     ++steps_;
     return true;
 }
 
 bool QuasiStaticSolver::shorten(double fraction, double dt) {
-    motion_->restore(*start_);
-    internal_ = internal_before_;
-    traction_ = traction_before_;
+    restore();
     allowed_ = fraction * dt;
+    usual_ = 0.0;
     if (allowed_ < least_)
         throw RunError(
             fmt::format("no equilibrium was found, however short the step{}; the load may exceed what the "
@@ -77,12 +79,19 @@ bool QuasiStaticSolver::shorten(double fraction, double dt) {
     return false;
 }
 
-void QuasiStaticSolver::undo(double fraction) {
+void QuasiStaticSolver::restore() {
     motion_->restore(*start_);
-    internal_ = internal_before_;
-    traction_ = traction_before_;
-    energies_ = energies_before_;
+    internal_ = before_.internal;
+    traction_ = before_.traction;
+    fixed_ = before_.fixed;
+    boundaries_.restore(before_.loads);
+    energies_ = before_.energies;
+}
+
+void QuasiStaticSolver::undo(double fraction) {
+    restore();
     time_ -= dt_before_;
+    usual_ = dt_before_;
     allowed_ = fraction * dt_before_;
     --steps_;
 }
@@ -179,8 +188,8 @@ void QuasiStaticSolver::correct() {
 
 void QuasiStaticSolver::account(double) {
     each_component([&](Eigen::Index, int k, std::size_t n) {
-        const double way = du_.c[k][n], inner = 0.5 * (internal_before_.c[k][n] + internal_.c[k][n]);
-        const double outer = 0.5 * (traction_before_.c[k][n] + traction_.c[k][n]) + weight(k, n);
+        const double way = du_.c[k][n], inner = 0.5 * (before_.internal.c[k][n] + internal_.c[k][n]);
+        const double outer = 0.5 * (before_.traction.c[k][n] + traction_.c[k][n]) + weight(k, n);
         energies_.internal -= inner * way;
         energies_.straining -= inner * way;
         energies_.external += (fixed_.c[k][n] == 0.0 ? outer : -inner) * way;

@@ -29,6 +29,7 @@ class QuasiStaticSolver final : public Solver {
         const; // norm of the forces on free components over the largest norm of forces, or the way left
     void correct();
     bool shorten(double fraction, double dt);
+    void restore(); // the start of the step
     void account(double dt);
     double inertia(int, std::size_t) const override { return 0.0; }
     template <class F>
@@ -39,12 +40,17 @@ class QuasiStaticSolver final : public Solver {
     Eigen::UmfPackLU<Stiffness::Matrix> factors_;
     bool analysed_ = false;
     VectorField du_, du_before_, correction_,
-        wanted_; // displacement of the step, of the one before, m; at fixed components
-    VectorField internal_before_, traction_before_;
+        wanted_;    // displacement of the step, of the one before, m; at fixed components
+    struct Before { // what measures read, at the start of the step
+        VectorField internal, traction;
+        FixedField fixed;
+        Boundaries::Loads loads;
+        Energies energies;
+    } before_;
     const VectorField still_; // what loads see as velocity: without inertia there are no waves to absorb
     std::unique_ptr<Motion::State> start_;
-    Energies energies_before_;
     double allowed_, dt_before_ = 0.0, least_ = 0.0, largest_strain_ = 0.0;
+    double usual_ = 0.0;    // length that was allowed before an event cut a step short, s
     double fraction_ = 0.5; // of the step, after one that failed
     std::string reason_;    // why it failed
     int64_t iterations_ = 0;

@@ -19,31 +19,33 @@ class ProgramRun {
     }
     ProgramRun(const ProgramRun&) = delete;
 
-    // Calls the program; the step that begins now is dt() long.
+    // Calls the program; the step that begins now is dt() long. GAULT_RETRY, where `repeatable`: take the last step
+    // back, put the measures back, and repeat() the call that began it.
     gault_status advance(double wanted_dt) {
-        gault_step step{};
-        step.size = sizeof step;
-        step.index = index++;
-        step.time = time;
-        step.dt = last_dt_;
-        step.next_dt = wanted_dt;
-        step.measure = measure.data();
-        step.control = control.data();
-        step.memory = memory_.data();
-        step.record = record.data();
-        const gault_status status = program_.api<gault_program_api>().advance(program_.self(), &step, &error);
-        done = step.done != 0;
-        if (step.emit) rows.push_back(record);
-        next = step.next;
-        last_dt_ = std::min(wanted_dt, next - time);
+        const Call call{index, time, last_dt_, measure, memory_, control};
+        const gault_status status = ask(call, wanted_dt, true);
+        if (status == GAULT_OK) {
+            last_ = call;
+            ++index;
+        } else {
+            memory_ = call.memory;
+            control = call.control;
+        }
         return status;
     }
-    // What follows from `rows`, whose times are in `times`.
+    gault_status repeat(double wanted_dt) {
+        time = last_.time;
+        measure = last_.measure;
+        memory_ = last_.memory;
+        control = last_.control;
+        return ask(last_, wanted_dt, false);
+    }
+    // What follows from `rows` and their `times`.
     struct Result {
         double value; // NaN where it is absent
         std::string unit, source, note, reason;
     };
-    std::map<std::string, Result> evaluate(const std::vector<double>& times) {
+    std::map<std::string, Result> evaluate() {
         std::vector<std::vector<double>> columns{times};
         for (std::size_t k = 0; k < record.size(); ++k) {
             columns.emplace_back();
@@ -85,12 +87,16 @@ class ProgramRun {
     double recorded(const std::vector<double>& row, const std::string& name) const {
         return row[index_of(signals_.records, signals_.record_count, name)];
     }
+    double& recorded(std::vector<double>& row, const std::string& name) {
+        return row[index_of(signals_.records, signals_.record_count, name)];
+    }
 
     std::vector<double> measure, control, record;
     std::vector<std::vector<double>> rows;
-    double time = 0.0, next = 0.0;
+    std::vector<double> times; // of the rows
+    double time = 0.0, next = 0.0, suggest = 0.5;
     int64_t index = 0;
-    bool done = false;
+    bool done = false, repeatable = false;
     gault_error error{-1, 0, -1, ""};
 
   private:
@@ -103,8 +109,38 @@ class ProgramRun {
             if (name == list[i].name) return i;
         throw std::runtime_error("no signal " + name);
     }
+    struct Call {
+        int64_t index;
+        double time, dt;
+        std::vector<double> measure, memory, control; // before it
+    };
+    gault_status ask(const Call& call, double wanted_dt, bool may_emit) {
+        gault_step step{};
+        step.size = sizeof step;
+        step.index = call.index;
+        step.time = call.time;
+        step.dt = call.dt;
+        step.next_dt = wanted_dt;
+        step.measure = measure.data();
+        step.control = control.data();
+        step.memory = memory_.data();
+        step.record = record.data();
+        step.final = repeatable ? 0 : 1;
+        const gault_status status = program_.api<gault_program_api>().advance(program_.self(), &step, &error);
+        suggest = step.suggest;
+        if (status != GAULT_OK) return status;
+        done = step.done != 0;
+        if (step.emit && may_emit) {
+            rows.push_back(record);
+            times.push_back(time);
+        }
+        next = step.next;
+        last_dt_ = std::min(wanted_dt, next - time);
+        return status;
+    }
     const Component& program_;
     const gault_program_signals& signals_;
+    Call last_;
     std::vector<double> memory_;
     double last_dt_ = 0.0;
 };
