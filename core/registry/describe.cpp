@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <numbers>
 
 namespace gault::core {
@@ -99,26 +100,47 @@ bool is_number(const gault_parameter& p) {
     return p.type == GAULT_REAL || p.type == GAULT_INTEGER || p.type == GAULT_LIST || p.type == GAULT_TABLE;
 }
 
-// Record kinds and their parameters follow the parameter that holds them, indented.
-void add_parameters(std::vector<Row>& rows, const gault_parameter* const* parameters,
-                    const std::string& indent) {
-    for (; *parameters; ++parameters) {
-        const gault_parameter& p = **parameters;
-        rows.push_back({indent + p.name, p.symbol, is_number(p) && p.unit ? p.unit : "", fallback(p),
-                        allowed(p), p.doc});
-        if (p.type != GAULT_RECORDS) continue;
-        for (const gault_record_kind* const* kind = p.kinds; *kind; ++kind) {
-            rows.push_back({fmt::format("{}  {}:", indent, (*kind)->name), "", "", "", "", (*kind)->doc});
-            add_parameters(rows, (*kind)->parameters, indent + "    ");
+// Record kinds and their parameters follow the first parameter that holds them, indented; a kind of a single
+// parameter is one line, as it is written.
+class ParameterRows {
+  public:
+    std::vector<Row> rows{{"name", "symbol", "unit", "default", "allowed", "meaning"}};
+
+    void add(const gault_parameter* const* parameters, const std::string& indent) {
+        for (; *parameters; ++parameters) {
+            const gault_parameter& p = **parameters;
+            const bool again = p.type == GAULT_RECORDS && shown_.contains(p.kinds);
+            rows.push_back(
+                {indent + p.name, p.symbol, unit(p), fallback(p),
+                 again ? joined({fmt::format("as `{}` above", shown_[p.kinds]), entries(p)}) : allowed(p),
+                 p.doc});
+            if (p.type != GAULT_RECORDS || again) continue;
+            shown_[p.kinds] = p.name;
+            for (const gault_record_kind* const* kind = p.kinds; *kind; ++kind)
+                add(**kind, indent + "  ");
         }
     }
-}
+
+  private:
+    static std::string unit(const gault_parameter& p) { return is_number(p) && p.unit ? p.unit : ""; }
+    void add(const gault_record_kind& kind, const std::string& indent) {
+        const gault_parameter* const* p = kind.parameters;
+        if (p[0] && !p[1] && p[0]->type != GAULT_RECORDS) {
+            rows.push_back({indent + kind.name, p[0]->symbol, unit(**p),
+                            p[0]->flags & GAULT_REQUIRED ? "" : fallback(**p), allowed(**p), kind.doc});
+            return;
+        }
+        rows.push_back({fmt::format("{}{}:", indent, kind.name), "", "", "", "", kind.doc});
+        add(p, indent + "  ");
+    }
+    std::map<const gault_record_kind* const*, std::string> shown_;
+};
 
 std::string parameter_table(const gault_component& c) {
     if (!c.parameters[0]) return "\nparameters: none\n";
-    std::vector<Row> rows{{"name", "symbol", "unit", "default", "allowed", "meaning"}};
-    add_parameters(rows, c.parameters, "");
-    return table("parameters", rows);
+    ParameterRows all;
+    all.add(c.parameters, "");
+    return table("parameters", all.rows);
 }
 
 std::string signal_table(const std::string& title, const gault_signal* signals, std::uint32_t count) {
@@ -176,11 +198,19 @@ std::string details(const gault_boundary_api& api) {
 }
 
 std::string details(const gault_program_api& api) {
-    if (api.instance_signals) return "\nmeasures, controls, records: depend on the parameters\n";
-    const gault_program_signals& s = *api.signals;
-    return signal_table("measures", s.measures, s.measure_count) +
-           signal_table("controls", s.controls, s.control_count) +
-           signal_table("records", s.records, s.record_count);
+    const gault_program_signals none{};
+    const gault_program_signals& s = api.signals ? *api.signals : none;
+    const bool listed = s.measure_count + s.control_count + s.record_count > 0;
+    std::string text;
+    if (listed || !api.instance_signals)
+        text = signal_table("measures", s.measures, s.measure_count) +
+               signal_table("controls", s.controls, s.control_count) +
+               signal_table("records", s.records, s.record_count);
+    if (api.instance_signals)
+        text += listed ? "\nwhich controls it needs depends on the parameters\n"
+                       : "\nmeasures, controls, records: depend on the parameters\n";
+    if (api.evaluate) text += "\nresults: derived from the history when it is done\n";
+    return text;
 }
 
 std::string details(const gault_observer_api& api) {

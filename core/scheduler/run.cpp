@@ -332,9 +332,9 @@ std::vector<std::string> check_scene(const Scene& scene) {
             fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));
     for (std::string& line : simulation.solver().boundaries().description())
         lines.push_back(std::move(line));
+    const double dt = simulation.solver().allowed_step();
     if (const double limit = simulation.solver().stability_limit(); limit > 0.0)
-        lines.push_back(
-            fmt::format("stable step {:.4g} s, used {:.4g} s", limit, simulation.solver().allowed_step()));
+        lines.push_back(fmt::format("stable step {:.4g} s, used {:.4g} s", limit, dt));
     return lines;
 }
 

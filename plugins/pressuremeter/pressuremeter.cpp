@@ -323,9 +323,10 @@ struct Pressuremeter {
         }
     }
 
-    // The wall's, which stops where a strain is to be reached.
+    // The wall's, which stops where a strain is to be reached and something follows.
     Path path_of(gault::Step& step, const Part& part, double a0) const {
-        if (part.drive == Part::Drive::pressure || part.rate == 0.0) return {1.0, 0.0};
+        if (part.drive == Part::Drive::pressure || part.rate == 0.0)
+            return {1.0, 0.0, gault::infinity, false};
         const double speed = std::abs(part.rate);
         double distance = gault::infinity;
         for (const Event& event : part.ends)
@@ -333,7 +334,8 @@ struct Pressuremeter {
                 distance = std::min(distance, event.sign * (event.target - step.memory(part_strain)) * a0);
         const double usual = step.repeatable() ? 0.0 : 5e-4;
         const double start = ramp_time ? *ramp_time : 2.0 * ramp_strain.value_or(usual) * a0 / speed;
-        return {speed, start, distance};
+        const bool last = step.memory(phase_number) + 1.0 == static_cast<double>(phases.size());
+        return {speed, start, distance, !last};
     }
 
     // What the last step tells of the time of the next event; with inertia steps are too short to tell.

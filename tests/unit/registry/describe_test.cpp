@@ -83,15 +83,20 @@ TEST(Describe, ShowsEveryTypeOfParameterAndTheKindsOfRecords) {
     curve.min_count = 2;
     gault_parameter phases = parameter(GAULT_RECORDS, "phases", nullptr, "In order.");
     const gault_parameter duration = parameter(GAULT_REAL, "duration", "s", "How long.");
+    const gault_parameter pace = parameter(GAULT_REAL, "pace", "m/s", "How fast.");
+    const gault_parameter* const move_parameters[] = {&duration, &pace, nullptr};
+    const gault_record_kind move{sizeof(gault_record_kind), 0, "move", "Goes.", move_parameters};
     const gault_parameter* const hold_parameters[] = {&duration, nullptr};
     const gault_record_kind hold{sizeof(gault_record_kind), 0, "hold", "Waits.", hold_parameters};
     const gault_record_kind stop{sizeof(gault_record_kind), 0, "stop", "Ends.", no_parameters};
-    const gault_record_kind* const kinds[] = {&hold, &stop, nullptr};
+    const gault_record_kind* const kinds[] = {&move, &hold, &stop, nullptr};
     phases.kinds = kinds;
     phases.min_count = phases.max_count = 1;
+    gault_parameter last = phases;
+    last.name = "last";
 
-    const gault_parameter* const all[] = {&angle, &any,    &cycles, &smooth, &side,
-                                          &label, &levels, &curve,  &phases, nullptr};
+    const gault_parameter* const all[] = {&angle,  &any,   &cycles, &smooth, &side,  &label,
+                                          &levels, &curve, &phases, &last,   nullptr};
     const gault_boundary_api api{};
     const std::string text = described(GAULT_BOUNDARY, all, &api);
     const std::string expected = R"(
@@ -106,9 +111,12 @@ parameters
     levels                Pa    required  list of numbers, > 0, 2 to 5        Levels.
     curve                 Pa    required  table [x in s, y], at least 2       A curve.
     phases                      required  list of the records below, exactly 1  In order.
-      hold:                                                                   Waits.
+      move:                                                                   Goes.
         duration          s     required  any number                          How long.
+        pace              m/s   required  any number                          How fast.
+      hold                s               any number                          Waits.
       stop:                                                                   Ends.
+    last                        required  as `phases` above, exactly 1        In order.
 )";
     // The widest cell sets the column: compare line by line, blank runs as one.
     const auto squeezed = [](std::string s) {
