@@ -7,7 +7,9 @@
 namespace gault::core::config {
 namespace {
 
-void read_annulus(const Fields& fields, Geometry& geometry) {
+using Sides = std::array<std::string, 4>;
+
+Sides read_annulus(const Fields& fields, Geometry& geometry) {
     const double inner = fields.quantity("inner_radius", "m", positive);
     const double outer = fields.quantity("outer_radius", "m", positive);
     if (!(inner < outer))
@@ -18,18 +20,18 @@ void read_annulus(const Fields& fields, Geometry& geometry) {
     const double bottom = fields.quantity("bottom", "m", {}, 0.0);
     geometry.lower = {inner, bottom};
     geometry.upper = {outer, bottom + fields.quantity("height", "m", positive)};
-    geometry.surfaces = {"inner", "outer", "bottom", "top"};
+    return {"inner", "outer", "bottom", "top"};
 }
 
-void read_cylinder(const Fields& fields, Geometry& geometry) {
+Sides read_cylinder(const Fields& fields, Geometry& geometry) {
     const double bottom = fields.quantity("bottom", "m", {}, 0.0);
     geometry.lower = {0.0, bottom};
     geometry.upper = {fields.quantity("radius", "m", positive),
                       bottom + fields.quantity("height", "m", positive)};
-    geometry.surfaces = {"axis", "outer", "bottom", "top"};
+    return {"axis", "outer", "bottom", "top"};
 }
 
-void read_block(const Fields& fields, Geometry& geometry) {
+Sides read_block(const Fields& fields, Geometry& geometry) {
     geometry.lower = {0.0, 0.0};
     if (const Node* origin = fields.find("origin")) {
         require_kind(*origin, NodeKind::list, fields.path("origin"));
@@ -40,13 +42,13 @@ void read_block(const Fields& fields, Geometry& geometry) {
     }
     geometry.upper = {geometry.lower[0] + fields.quantity("width", "m", positive),
                       geometry.lower[1] + fields.quantity("height", "m", positive)};
-    geometry.surfaces = {"left", "right", "bottom", "top"};
+    return {"left", "right", "bottom", "top"};
 }
 
 struct Shape {
     std::string name;
     std::vector<std::string> keys;
-    void (*read)(const Fields&, Geometry&);
+    Sides (*read)(const Fields&, Geometry&);
 };
 
 const std::vector<Shape>& shapes() {
@@ -89,24 +91,26 @@ std::array<std::string, 2> axis_names(const Geometry& geometry) {
     return {geometry.kind == "block" ? "x" : "r", "y"};
 }
 
-int surface_index(const Node& node, const std::string& path, const Geometry& geometry) {
-    return index_of_name(node, path, {geometry.surfaces.begin(), geometry.surfaces.end()}, "surface");
-}
-
 void read_geometry(const Source& source, Scene& scene) {
     std::vector<std::string> names;
     for (const auto& shape : shapes())
         names.push_back(shape.name);
+    names.emplace_back("parts");
     const Node& node = source.root.require("geometry", "one of annulus, cylinder, block");
     const Fields fields(node, "geometry", names);
-    if (node.keys.size() != 1)
+    std::vector<Key> found;
+    std::copy_if(node.keys.begin(), node.keys.end(), std::back_inserter(found),
+                 [](const Key& key) { return key.text != "parts"; });
+    if (found.size() != 1)
         throw InputError(node.where(), "geometry must be exactly one of annulus, cylinder, block");
-    const auto shape = std::find_if(shapes().begin(), shapes().end(), [&](const Shape& candidate) {
-        return candidate.name == node.keys[0].text;
-    });
+    const auto shape = std::find_if(shapes().begin(), shapes().end(),
+                                    [&](const Shape& candidate) { return candidate.name == found[0].text; });
     scene.geometry.kind = shape->name;
-    scene.geometry.where = node.keys[0].place.location();
-    shape->read(Fields(fields.require(shape->name), fields.path(shape->name), shape->keys), scene.geometry);
+    scene.geometry.where = found[0].place.location();
+    const Sides sides = shape->read(
+        Fields(fields.require(shape->name), fields.path(shape->name), shape->keys), scene.geometry);
+    for (int side = 0; side < 4; ++side)
+        scene.surfaces.push_back({sides[static_cast<std::size_t>(side)], side, {}});
     for (std::size_t axis = 0; axis < 2; ++axis)
         if (!(scene.geometry.lower[axis] < scene.geometry.upper[axis]))
             throw InputError(scene.geometry.where,

@@ -90,10 +90,14 @@ void read_per_cell(const Fields& fields, Scene& scene) {
 
 } // namespace
 
-std::vector<double> cell_centres(const Scene& scene, int axis) {
+std::vector<double> knots_along(const Scene& scene, int axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const std::vector<double> knots = Axis::graded(scene.geometry.lower[i], scene.geometry.upper[i],
-                                                   scene.axes[i].cells, scene.axes[i].ratio);
+    return Axis::graded(scene.geometry.lower[i], scene.geometry.upper[i], scene.axes[i].cells,
+                        scene.axes[i].ratio);
+}
+
+std::vector<double> cell_centres(const Scene& scene, int axis) {
+    const std::vector<double> knots = knots_along(scene, axis);
     std::vector<double> centres;
     for (std::size_t k = 1; k < knots.size(); ++k)
         centres.push_back(0.5 * (knots[k - 1] + knots[k]));

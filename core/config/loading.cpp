@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gault::core::config {
 namespace {
@@ -39,30 +40,40 @@ InitialStress read_stress(const Fields& fields, bool gravity) {
     return stress;
 }
 
-void add_surface(BoundaryUse& boundary, const Node& node, const std::string& path, const Geometry& geometry) {
-    const int surface = surface_index(node, path, geometry);
-    if (geometry.surfaces[static_cast<std::size_t>(surface)] == "axis")
+bool overlap(const SurfaceUse& a, const SurfaceUse& b) {
+    if (a.side != b.side) return false;
+    return !a.cells || !b.cells || ((*a.cells)[0] < (*b.cells)[1] && (*b.cells)[0] < (*a.cells)[1]);
+}
+
+void add_surface(BoundaryUse& boundary, const Node& node, const std::string& path, const Scene& scene) {
+    const int index = surface_index(node, path, scene);
+    const SurfaceUse& surface = scene.surfaces[static_cast<std::size_t>(index)];
+    if (index == 0 && surface.name == "axis")
         throw InputError(node.where(), path + ": the axis takes no boundary condition; "
                                               "the radial velocity there is zero by symmetry");
-    if (std::find(boundary.surfaces.begin(), boundary.surfaces.end(), surface) != boundary.surfaces.end())
-        throw InputError(node.where(), path + ": the surface " + in_quotes(node.text) + " is named twice");
-    boundary.surfaces.push_back(surface);
+    for (const int other : boundary.surfaces) {
+        const SurfaceUse& before = scene.surfaces[static_cast<std::size_t>(other)];
+        if (overlap(surface, before))
+            throw InputError(node.where(), path + ": the surface " + in_quotes(surface.name) +
+                                               (other == index ? " is named twice"
+                                                               : " overlaps " + in_quotes(before.name)));
+    }
+    boundary.surfaces.push_back(index);
 }
 
 BoundaryUse read_boundary(const Node& node, const std::string& path, const Source& source,
                           const Scene& scene) {
     require_kind(node, NodeKind::map, path);
     BoundaryUse boundary{{}, read_component(node, path, {"on", "type"}, GAULT_BOUNDARY, source.registry)};
-    const auto& names = scene.geometry.surfaces;
     const Node* on = node.find("on");
     if (on == nullptr)
-        throw InputError(node.where(), path + ".on is missing: one or more of " + names[0] + ", " + names[1] +
-                                           ", " + names[2] + ", " + names[3]);
+        throw InputError(node.where(), fmt::format("{}.on is missing: one or more of {}", path,
+                                                   fmt::join(surface_names(scene), ", ")));
     const auto surfaces = one_or_more(*on);
     if (surfaces.empty()) throw InputError(on->where(), path + ".on names no surface");
     for (std::size_t i = 0; i < surfaces.size(); ++i)
         add_surface(boundary, *surfaces[i],
-                    path + (on->kind == NodeKind::list ? ".on." + std::to_string(i) : ".on"), scene.geometry);
+                    path + (on->kind == NodeKind::list ? ".on." + std::to_string(i) : ".on"), scene);
     return boundary;
 }
 
@@ -98,9 +109,10 @@ void read_boundaries(const Source& source, Scene& scene) {
 
 void read_program(const Source& source, Scene& scene) {
     const Node& program = source.root.require("program", "what is done to the soil: {type: NAME, ...}");
-    scene.program = read_component(program, "program", {"on", "type"}, GAULT_PROGRAM, source.registry);
-    if (const Node* on = program.find("on"))
-        scene.program_surface = surface_index(*on, "program.on", scene.geometry);
+    scene.program =
+        read_component(program, "program", {"on", "type", "gauge"}, GAULT_PROGRAM, source.registry);
+    if (const Node* on = program.find("on")) scene.program_surface = surface_index(*on, "program.on", scene);
+    if (const Node* gauge = program.find("gauge")) scene.program_gauge = read_gauge(*gauge, scene);
 }
 
 void read_solver(const Source& source, Scene& scene) {

@@ -99,7 +99,7 @@ Scene::ObserverUse read_observer(const Node& node, const std::string& path, cons
                                  const Scene& scene) {
     Scene::ObserverUse observer{{},
                                 read_component(node, path, {"on", "type"}, GAULT_OBSERVER, source.registry)};
-    if (const Node* on = node.find("on")) observer.surface = surface_index(*on, path + ".on", scene.geometry);
+    if (const Node* on = node.find("on")) observer.surface = surface_index(*on, path + ".on", scene);
     return observer;
 }
 

@@ -52,6 +52,7 @@ Scene read_scene_text(std::string text, const std::filesystem::path& file,
     read_geometry(source, scene);
     read_model(source, scene);
     read_grid(source, scene);
+    read_parts(source, scene);
     read_points(source, scene);
     read_materials(source, scene);
     read_gravity(source, scene);

@@ -20,14 +20,20 @@ enum class Placement { uniform, gauss };
 enum class StressUpdate { usl, usf };
 enum class SolverKind { explicit_dynamics, quasi_static };
 
-// An axis-aligned rectangle in (r, y) or (x, y). Sides in the order low x, high x, low y, high y.
+// An axis-aligned rectangle in (r, y) or (x, y).
 struct Geometry {
     std::string kind;                   // annulus | cylinder | block
     std::array<double, 2> lower, upper; // m
-    // annulus: inner outer bottom top; cylinder: axis outer bottom top; block: left right bottom top
-    std::array<std::string, 4> surfaces;
     Location where;
 };
+
+// A side, or the part of one that lies between two knots of the grid.
+struct SurfaceUse {
+    std::string name;
+    int side;
+    std::optional<std::array<int, 2>> cells; // of a part: [first, last) along the side
+};
+constexpr std::size_t most_parts = 48; // in a scene
 
 struct GridAxis {
     int cells;
@@ -67,7 +73,7 @@ struct InitialStress {
 };
 
 struct BoundaryUse {
-    std::vector<int> surfaces; // indices into Geometry::surfaces
+    std::vector<int> surfaces; // indices into Scene::surfaces
     ComponentUse model;
 };
 
@@ -117,6 +123,9 @@ struct Scene {
     Frame frame;
     Basis basis;
     Geometry geometry;
+    // The sides, low x, high x, low y, high y, then the parts. annulus: inner outer bottom top; cylinder: axis
+    // outer bottom top; block: left right bottom top.
+    std::vector<SurfaceUse> surfaces;
     std::array<GridAxis, 2> axes;
     int points_per_cell; // a square number; in radial symmetry any, along the radius
     Placement placement;
@@ -132,6 +141,7 @@ struct Scene {
     InitialStress initial_stress;
     std::vector<BoundaryUse> boundaries;
     std::optional<int> program_surface;
+    std::optional<double> program_gauge; // m, along that surface: where it is measured instead of in the mean
     ComponentUse program;
     SolverSettings solver;
 

@@ -15,6 +15,7 @@ struct Source { // what every section reads from
 void read_geometry(const Source& source, Scene& scene);
 void read_model(const Source& source, Scene& scene); // model: symmetry, frame, solver
 void read_grid(const Source& source, Scene& scene);
+void read_parts(const Source& source, Scene& scene); // geometry.parts, which lie on the grid
 void read_points(const Source& source, Scene& scene);
 void read_materials(const Source& source, Scene& scene); // materials, regions, soil
 void read_gravity(const Source& source, Scene& scene);
@@ -46,7 +47,12 @@ std::array<std::string, 2> axis_names(const Geometry& geometry);
 // Centres of the cells along one axis, m.
 std::vector<double> cell_centres(const Scene& scene, int axis);
 
-int surface_index(const Node& node, const std::string& path, const Geometry& geometry);
+// Knots of the grid along one axis, m.
+std::vector<double> knots_along(const Scene& scene, int axis);
+
+std::vector<std::string> surface_names(const Scene& scene);
+int surface_index(const Node& node, const std::string& path, const Scene& scene);
+double read_gauge(const Node& node, const Scene& scene); // of the program, once its surface is known
 
 // An existing file, named relative to the scene's folder.
 std::filesystem::path existing_file(const Node& node, const std::string& path,

@@ -7,7 +7,7 @@
 
 namespace gault::core {
 
-enum Side { low_x = 0, high_x = 1, low_y = 2, high_y = 3 }; // the order of Geometry::surfaces
+enum Side { low_x = 0, high_x = 1, low_y = 2, high_y = 3 }; // the first of Scene::surfaces
 constexpr int normal_axis(int side) {
     return side / 2;
 }

@@ -67,11 +67,14 @@ void check_measure(const Location& where, const char* owner, const std::string& 
 
 Program::Program(const Scene& scene, Solver& solver)
     : instance_(*scene.program.component, scene.program.parameters), solver_(solver),
-      where_(scene.program.parameters.where), side_(scene.program_surface) {
+      where_(scene.program.parameters.where), surface_(scene.program_surface) {
+    if (scene.program_gauge)
+        gauge_ = Surface::at(solver.motion(), solver.boundaries().surface(surface_.value()).side(),
+                             *scene.program_gauge);
     const gault_program_signals& signals = program_signals(instance_);
     for (uint32_t k = 0; k < signals.measure_count; ++k) {
         measures_.emplace_back(signals.measures[k].name);
-        check_measure(where_, instance_.declaration().name, measures_.back(), side_.has_value());
+        check_measure(where_, instance_.declaration().name, measures_.back(), surface_.has_value());
     }
     for (uint32_t k = 0; k < signals.memory_count; ++k)
         memory_.push_back(signals.memories[k].initial);
@@ -87,12 +90,13 @@ void Program::bind(const Scene& scene, const gault_program_signals& signals) {
     for (uint32_t k = 0; k < signals.control_count; ++k) {
         const gault_signal& signal = signals.controls[k];
         std::string unit;
-        Control control{signal.name, solver_.boundaries().listeners(signal.name, side_, unit)};
+        Control control{signal.name, solver_.boundaries().listeners(signal.name, surface_, unit)};
         const std::string place =
-            side_ ? fmt::format("on '{}'", scene.geometry.surfaces[*side_]) : "in the scene";
+            surface_ ? fmt::format("on '{}'", scene.surfaces[static_cast<std::size_t>(*surface_)].name)
+                     : "in the scene";
         const bool needs_listener = !(signal.flags & GAULT_SIGNAL_OPTIONAL);
         if (control.listeners.empty() && needs_listener) {
-            const auto names = solver_.boundaries().control_names(side_);
+            const auto names = solver_.boundaries().control_names(surface_);
             throw InputError(where_,
                              fmt::format("program '{}' commands '{}', but no boundary {} listens to it{}",
                                          instance_.declaration().name, signal.name, place,
@@ -130,7 +134,8 @@ Program::Answer Program::repeat(double next_dt) {
 
 Program::Answer Program::ask(const Call& call, double next_dt) {
     for (std::size_t k = 0; k < measures_.size(); ++k)
-        measure_[k] = solver_.measure(measures_[k], side_.value_or(0)).value();
+        measure_[k] =
+            solver_.measure(measures_[k], surface_.value_or(0), gauge_ ? &*gauge_ : nullptr).value();
     gault_step step{};
     step.size = sizeof step;
     step.index = call.index;

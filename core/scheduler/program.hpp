@@ -56,7 +56,8 @@ class Program {
     Instance instance_;
     Solver& solver_;
     Location where_;
-    std::optional<int> side_;
+    std::optional<int> surface_;
+    std::optional<Surface> gauge_;
     std::vector<std::string> measures_;
     std::vector<Control> controls_;
     std::vector<double> measure_, control_, memory_, record_;

@@ -194,7 +194,7 @@ nlohmann::json Verification::ask(const Observer& observer, Solver& solver, gault
     sample.field = field.data();
     std::vector<double> measure, result(api.result_count, std::numeric_limits<double>::quiet_NaN());
     for (const std::string& name : observer.measures)
-        measure.push_back(solver.measure(name, observer.side).value());
+        measure.push_back(solver.measure(name, observer.surface).value());
     sample.measure = measure.data();
     sample.result = result.data();
     gault_error error{-1, 0, -1, ""};

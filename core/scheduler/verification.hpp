@@ -41,7 +41,7 @@ class Verification {
     };
     struct Observer {
         Instance instance;
-        int side;
+        int surface;
         std::vector<std::string> measures;
     };
     static nlohmann::json ask(const Observer& observer, Solver& solver, gault_sample sample);

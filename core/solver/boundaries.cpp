@@ -28,12 +28,29 @@ void clear(std::array<Column, N>& columns) {
         std::fill(c.begin(), c.end(), 0.0);
 }
 
+std::string described(const SurfaceUse& part, const Scene& scene, const Grid& grid) {
+    const Axis& along = grid.axis(1 - normal_axis(part.side));
+    const auto [first, last] = *part.cells;
+    return fmt::format("part {}: {} of {} cells of {}, from {:.6g} m to {:.6g} m", part.name, last - first,
+                       along.cells(), scene.surfaces[static_cast<std::size_t>(part.side)].name,
+                       along.knots()[static_cast<std::size_t>(first)],
+                       along.knots()[static_cast<std::size_t>(last)]);
+}
+
+static_assert(4 + most_parts <= FixedField::symmetry);
+
 } // namespace
 
 Boundaries::Boundaries(const Scene& scene, const Motion& motion,
                        const std::function<SoilBehind(const std::array<double, 2>&)>& behind) {
-    for (int side = 0; side < 4; ++side)
-        surfaces_.emplace_back(motion, side);
+    for (const SurfaceUse& use : scene.surfaces) {
+        surfaces_.emplace_back(motion, use.side, use.cells);
+        std::vector<int>& beside = beside_.emplace_back();
+        for (int other = 0; other < static_cast<int>(scene.surfaces.size()); ++other)
+            if (scene.surfaces[static_cast<std::size_t>(other)].side == use.side) beside.push_back(other);
+        if (use.cells) parts_.push_back(described(use, scene, motion.grid()));
+    }
+    load_on_.resize(surfaces_.size());
     for (const BoundaryUse& use : scene.boundaries) {
         Condition c{Instance(*use.model.component, use.model.parameters),
                     use.surfaces,
@@ -42,8 +59,8 @@ Boundaries::Boundaries(const Scene& scene, const Motion& motion,
                     {},
                     use.model.parameters.where,
                     {}};
-        for (const int side : c.sides)
-            c.names.push_back(scene.geometry.surfaces[side]);
+        for (const int surface : c.surfaces)
+            c.names.push_back(scene.surfaces[static_cast<std::size_t>(surface)].name);
         for (uint32_t k = 0; k < c.api().control_count; ++k)
             c.control.push_back(c.api().controls[k].initial);
         if (c.api().constrain) hold(c, motion);
@@ -53,20 +70,19 @@ Boundaries::Boundaries(const Scene& scene, const Motion& motion,
 }
 
 void Boundaries::hold(Condition& condition, const Motion& motion) {
-    const Grid& grid = motion.grid();
-    for (const int side : condition.sides) {
+    for (const int index : condition.surfaces) {
+        const Surface& surface = surfaces_[index];
         Held held;
-        const std::size_t n = grid.side_nodes(side);
+        held.ij = surface.ij();
+        held.node = surface.nodes();
+        const std::size_t n = held.node.size();
         for (auto* columns :
              {&held.reference, &held.position, &held.normal, &held.displacement, &held.fixed, &held.velocity})
             resize(*columns, n);
         for (std::size_t k = 0; k < n; ++k) {
-            const auto ij = grid.side_node(side, static_cast<int>(k));
-            held.ij.push_back(ij);
-            held.node.push_back(grid.layout().index(ij[0], ij[1]));
-            held.normal[normal_axis(side)][k] = outward(side);
+            held.normal[normal_axis(surface.side())][k] = outward(surface.side());
             for (int a = 0; a < 2; ++a)
-                held.reference[a][k] = motion.node_position(ij[0], ij[1], a);
+                held.reference[a][k] = motion.node_position(held.ij[k][0], held.ij[k][1], a);
         }
         condition.held.push_back(std::move(held));
     }
@@ -74,8 +90,9 @@ void Boundaries::hold(Condition& condition, const Motion& motion) {
 
 void Boundaries::prepare_load(Condition& condition,
                               const std::function<SoilBehind(const std::array<double, 2>&)>& behind) {
-    for (const int side : condition.sides) {
-        const Surface& surface = surfaces_[side];
+    for (const int index : condition.surfaces) {
+        const Surface& surface = surfaces_[index];
+        const int side = surface.side();
         Loaded l;
         const std::size_t n = surface.size();
         for (auto* columns :
@@ -140,11 +157,11 @@ void Boundaries::constrain(const Motion& motion, double time, double dt, FixedFi
             gault_error error{-1, 0, -1, ""};
             const gault_status status = condition.api().constrain(condition.instance.self(), &nodes, &error);
             if (status != GAULT_OK) refuse(condition, status, error);
-            impose(condition, condition.sides[s], held, fixed, value);
+            impose(condition, condition.surfaces[s], held, fixed, value);
         }
 }
 
-void Boundaries::impose(const Condition& condition, int side, const Held& held, FixedField& fixed,
+void Boundaries::impose(const Condition& condition, int surface, const Held& held, FixedField& fixed,
                         VectorField& value) const {
     for (int a = 0; a < 2; ++a)
         for (std::size_t k = 0; k < held.node.size(); ++k) {
@@ -164,7 +181,7 @@ void Boundaries::impose(const Condition& condition, int side, const Held& held, 
                         "prescribes {:g} m/s",
                         condition.instance.declaration().name, fmt::join(condition.names, ", "),
                         a ? "v_y" : "v_x", wanted, value.c[a][n]));
-            fixed.hold(side, a, n);
+            fixed.hold(surface, a, n);
             value.c[a][n] = wanted;
         }
 }
@@ -172,11 +189,11 @@ void Boundaries::impose(const Condition& condition, int side, const Held& held, 
 void Boundaries::load(const Motion& motion, double time, double dt, const VectorField& velocity,
                       VectorField& force, Stiffness* stiffness) {
     force.clear();
-    load_on_ = {};
+    std::fill(load_on_.begin(), load_on_.end(), std::array{0.0, 0.0});
     for (Condition& condition : conditions_)
         for (std::size_t s = 0; s < condition.loaded.size(); ++s) {
             Loaded& l = condition.loaded[s];
-            Surface& surface = surfaces_[condition.sides[s]];
+            Surface& surface = surfaces_[condition.surfaces[s]];
             surface.refresh(motion);
             const std::size_t n = surface.size();
             for (std::size_t q = 0; q < n; ++q) {
@@ -225,18 +242,48 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
                 if (stiffness)
                     surface.add_stiffness(*stiffness, q, l.pressure[q], {l.traction[0][q], l.traction[1][q]},
                                           {{{l.slope[0][q], l.slope[1][q]}, {l.slope[3][q], l.slope[4][q]}}});
-                for (int a = 0; a < 2; ++a)
-                    load_on_[condition.sides[s]][a] += push[a];
+                add_load(condition.surfaces[s], surface.cell(q), push);
             }
         }
 }
 
-std::vector<double*> Boundaries::listeners(const std::string& name, std::optional<int> side,
+void Boundaries::add_load(int surface, int cell, const std::array<double, 2>& force) {
+    for (const int other : beside_[surface])
+        if (surfaces_[other].has_cell(cell))
+            for (int a = 0; a < 2; ++a)
+                load_on_[other][a] += force[a];
+}
+
+double Boundaries::share(int surface, std::size_t k, const FixedField& fixed) const {
+    const Surface& own = surfaces_[surface];
+    const Surface& side = surfaces_[own.side()];
+    std::vector<const Surface*> holders;
+    for (const int other : beside_[surface])
+        if (fixed.held_by(other, normal_axis(own.side()), own.nodes()[k]))
+            holders.push_back(&surfaces_[other]);
+    if (holders.empty()) return 0.0;
+    if (surface < 4) return 1.0;
+    const int node = own.cells()[0] + static_cast<int>(k); // and the last cell where its function is not zero
+    double all = 0.0, here = 0.0;
+    for (int cell = std::max(node - 2, 0); cell <= std::min(node, side.cells()[1] - 1); ++cell) {
+        if (std::none_of(holders.begin(), holders.end(), [&](const Surface* s) { return s->has_cell(cell); }))
+            continue;
+        const double extent = side.extent(cell, node - cell);
+        all += extent;
+        if (own.has_cell(cell)) here += extent;
+    }
+    return here / all;
+}
+
+bool Boundaries::Condition::is_on(std::optional<int> surface) const {
+    return !surface || std::find(surfaces.begin(), surfaces.end(), *surface) != surfaces.end();
+}
+
+std::vector<double*> Boundaries::listeners(const std::string& name, std::optional<int> surface,
                                            std::string& unit) {
     std::vector<double*> found;
     for (Condition& condition : conditions_) {
-        if (side && std::find(condition.sides.begin(), condition.sides.end(), *side) == condition.sides.end())
-            continue;
+        if (!condition.is_on(surface)) continue;
         for (uint32_t k = 0; k < condition.api().control_count; ++k)
             if (name == condition.api().controls[k].name) {
                 found.push_back(&condition.control[k]);
@@ -246,11 +293,10 @@ std::vector<double*> Boundaries::listeners(const std::string& name, std::optiona
     return found;
 }
 
-std::vector<std::string> Boundaries::control_names(std::optional<int> side) const {
+std::vector<std::string> Boundaries::control_names(std::optional<int> surface) const {
     std::vector<std::string> names;
     for (const Condition& condition : conditions_) {
-        if (side && std::find(condition.sides.begin(), condition.sides.end(), *side) == condition.sides.end())
-            continue;
+        if (!condition.is_on(surface)) continue;
         for (uint32_t k = 0; k < condition.api().control_count; ++k)
             names.emplace_back(condition.api().controls[k].name);
     }
@@ -258,13 +304,13 @@ std::vector<std::string> Boundaries::control_names(std::optional<int> side) cons
 }
 
 std::vector<std::string> Boundaries::description() const {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = parts_;
     for (const Condition& condition : conditions_) {
         std::size_t nodes = 0, facets = 0;
         for (const Held& held : condition.held)
             nodes += held.node.size();
         for (std::size_t s = 0; s < condition.loaded.size(); ++s)
-            facets += surfaces_[condition.sides[s]].size();
+            facets += surfaces_[condition.surfaces[s]].size();
         std::vector<std::string> took;
         if (nodes) took.push_back(fmt::format("{} nodes", nodes));
         if (facets) took.push_back(fmt::format("{} quadrature points", facets));

@@ -33,24 +33,30 @@ class Boundaries {
     // `stiffness`, if any, += -d(force)/d(displacement).
     void load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force,
               Stiffness* stiffness = nullptr);
-    // Of the last load: the force on a side, N.
-    const std::array<double, 2>& load_on(int side) const { return load_on_[side]; }
-    using Loads = std::array<std::array<double, 2>, 4>; // of every side
+    // Surfaces are counted as in Scene::surfaces: the four sides first.
+    Surface& surface(int index) { return surfaces_[index]; }
+    const Surface& surface(int index) const { return surfaces_[index]; }
+
+    // Of the last load: the force on a surface, N, whichever name of it a condition used.
+    const std::array<double, 2>& load_on(int surface) const { return load_on_[surface]; }
+    using Loads = std::vector<std::array<double, 2>>; // of every surface
     const Loads& loads() const { return load_on_; }
     void restore(const Loads& loads) { load_on_ = loads; }
+    // The part of what holds node k of a surface along its normal that acts on this surface, 0 to 1. A force
+    // that holds a node acts on the surfaces of its side that hold it, spread over them as the node's function
+    // is. So the parts that tile a side add up to the side, a part under pressure alone takes nothing of what
+    // holds its neighbour, and a uniform pressure on two held parts is shared exactly.
+    double share(int surface, std::size_t k, const FixedField& fixed) const;
 
-    Surface& surface(int side) { return surfaces_[side]; }
-    const Surface& surface(int side) const { return surfaces_[side]; }
-
-    // A control named `name` on `side` (any side if nullopt): sets every listener, returns how many there
+    // A control named `name` on a surface (any if nullopt): sets every listener, returns how many there
     // are; `unit` gets the unit of a listener.
-    std::vector<double*> listeners(const std::string& name, std::optional<int> side, std::string& unit);
-    std::vector<std::string> control_names(std::optional<int> side) const;
+    std::vector<double*> listeners(const std::string& name, std::optional<int> surface, std::string& unit);
+    std::vector<std::string> control_names(std::optional<int> surface) const;
 
-    std::vector<std::string> description() const; // what each boundary took hold of, a line each
+    std::vector<std::string> description() const; // what each part and boundary took hold of, a line each
 
   private:
-    struct Held { // one boundary on one side
+    struct Held { // one boundary on one surface
         std::vector<std::array<int, 2>> ij;
         std::vector<std::size_t> node;
         std::array<Column, 3> reference, position, normal, displacement, fixed, velocity;
@@ -63,23 +69,28 @@ class Boundaries {
     };
     struct Condition {
         Instance instance;
-        std::vector<int> sides;
+        std::vector<int> surfaces;
         std::vector<double> control;
-        std::vector<Held> held;     // one a side; empty without `constrain`
-        std::vector<Loaded> loaded; // one a side; empty without `load`
+        std::vector<Held> held;     // one a surface; empty without `constrain`
+        std::vector<Loaded> loaded; // one a surface; empty without `load`
         Location where;
-        std::vector<std::string> names; // of the sides
+        std::vector<std::string> names; // of the surfaces
         const gault_boundary_api& api() const { return instance.api<gault_boundary_api>(); }
+        bool is_on(std::optional<int> surface) const; // on any, if nullopt
     };
     void hold(Condition& condition, const Motion& motion);
     void prepare_load(Condition& condition,
                       const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
-    void impose(const Condition& condition, int side, const Held& held, FixedField& fixed,
+    void impose(const Condition& condition, int surface, const Held& held, FixedField& fixed,
                 VectorField& value) const;
     [[noreturn]] void refuse(const Condition& condition, gault_status status, const gault_error& error) const;
 
+    void add_load(int surface, int cell, const std::array<double, 2>& force);
+
     std::vector<Surface> surfaces_;
-    Loads load_on_{};
+    std::vector<std::vector<int>> beside_; // surfaces on the same side, by surface; itself among them
+    Loads load_on_;
+    std::vector<std::string> parts_; // what each is
     std::vector<Condition> conditions_;
 };
 

@@ -32,10 +32,6 @@ Solver::Solver(const Scene& scene, Model& model, int threads)
       motion_(make_motion(scene, model, threads)), boundaries_(scene, *motion_, model.behind(scene)),
       internal_(model.grid.layout()), traction_(internal_), velocity_(internal_), value_(internal_),
       fixed_(model.grid.layout()) {
-    for (int side = 0; side < 4; ++side) {
-        initial_area_[side] = boundaries_.surface(side).projected_area();
-        initial_radius_[side] = boundaries_.surface(side).mean_radius();
-    }
     motion_->forces(internal_);
     // Conditions that contradict each other are refused here.
     boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_);
@@ -73,18 +69,21 @@ bool Solver::measures_surface(const std::string& name) {
     return std::find(names.begin(), names.end(), name) < names.begin() + 7;
 }
 
-// The loads on the surface, and what holds the nodes that conditions on this surface hold.
-double Solver::normal_force(int side) {
+// The loads on the surface, and its share of what holds its nodes.
+double Solver::normal_force(int index) {
     load_first();
-    const int k = normal_axis(side);
-    double total = boundaries_.load_on(side)[k];
-    for (const std::size_t n : boundaries_.surface(side).nodes())
-        if (fixed_.held_by(side, k, n))
-            total += inertia(k, n) - weight(k, n) - internal_.c[k][n] - traction_.c[k][n];
-    return -outward(side) * total;
+    const Surface& surface = boundaries_.surface(index);
+    const int k = normal_axis(surface.side());
+    double total = boundaries_.load_on(index)[k];
+    for (std::size_t i = 0; i < surface.nodes().size(); ++i) {
+        const std::size_t n = surface.nodes()[i];
+        if (const double share = boundaries_.share(index, i, fixed_); share > 0.0)
+            total += share * (inertia(k, n) - weight(k, n) - internal_.c[k][n] - traction_.c[k][n]);
+    }
+    return -outward(surface.side()) * total;
 }
 
-std::optional<double> Solver::measure(const std::string& name, int side) {
+std::optional<double> Solver::measure(const std::string& name, int index, Surface* gauge) {
     if (name == "kinetic_energy") return energies().kinetic;
     if (name == "internal_energy") return energies().internal;
     if (name == "external_work") return energies().external;
@@ -92,14 +91,16 @@ std::optional<double> Solver::measure(const std::string& name, int side) {
     if (name == "energy_error") return energies().error();
     if (name == "kinetic_ratio") return energies().ratio();
     if (name == "largest_velocity") return largest_velocity();
-    if (name == "initial_radius") return initial_radius_[side];
-    if (name == "initial_area") return initial_area_[side];
-    if (name == "normal_force") return normal_force(side);
-    Surface& surface = boundaries_.surface(side);
+    Surface& surface = boundaries_.surface(index);
+    Surface& place = gauge ? *gauge : surface;
+    if (name == "initial_radius") return place.initial_radius();
+    if (name == "initial_area") return surface.initial_area();
+    if (name == "normal_force") return normal_force(index);
     surface.refresh(*motion_);
-    if (name == "radius") return surface.mean_radius();
+    place.refresh(*motion_);
+    if (name == "radius") return place.mean_radius();
     if (name == "area") return surface.projected_area();
-    if (name == "displacement") return surface.mean_displacement();
+    if (name == "displacement") return place.mean_displacement();
     if (name == "enclosed_volume") return surface.enclosed_volume();
     return std::nullopt;
 }

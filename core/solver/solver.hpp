@@ -42,8 +42,9 @@ class Solver {
     Boundaries& boundaries() { return boundaries_; }
     virtual Energies energies() const { return energies_; }
     double largest_velocity() const; // m/s, of the grid
-    // A measure of gault.h's list, of a surface where it belongs to one. nullopt: no such measure.
-    std::optional<double> measure(const std::string& name, int side);
+    // A measure of gault.h's list, of a surface where it belongs to one; radii and displacement at the gauge
+    // where there is one. nullopt: no such measure.
+    std::optional<double> measure(const std::string& name, int surface, Surface* gauge = nullptr);
     static const std::vector<std::string>& measure_names();
     static bool measures_surface(const std::string& name);
 
@@ -71,9 +72,8 @@ class Solver {
     int64_t steps_ = 0;
 
   private:
-    double normal_force(int side);
+    double normal_force(int surface);
 
-    std::array<double, 4> initial_area_, initial_radius_;
     bool loaded_ = false;
 };
 

@@ -4,23 +4,23 @@
 
 namespace gault::core {
 
-// Which components of which nodes are prescribed: 0 where free, else a bit for each side that holds it.
+// Which components of which nodes are prescribed: 0 where free, else a bit for each surface that holds it.
 class FixedField : public VectorField {
   public:
     using VectorField::VectorField;
-    static constexpr int symmetry = 4; // beside the four sides
+    static constexpr int symmetry = 52; // beside the surfaces: a double is exact for the bits 0 to 52
 
     void release() {
         clear();
         count_ = 0;
     }
-    void hold(int side, int component, std::size_t node) {
+    void hold(int surface, int component, std::size_t node) {
         double& bits = c[component][node];
         if (bits == 0.0) ++count_;
-        bits = static_cast<int>(bits) | 1 << side;
+        bits = static_cast<double>(static_cast<int64_t>(bits) | int64_t{1} << surface);
     }
-    bool held_by(int side, int component, std::size_t node) const {
-        return static_cast<int>(c[component][node]) >> side & 1;
+    bool held_by(int surface, int component, std::size_t node) const {
+        return static_cast<int64_t>(c[component][node]) >> surface & 1;
     }
     int count() const { return count_; } // of prescribed components
 

@@ -12,32 +12,60 @@ constexpr std::array<std::array<double, 2>, 3> gauss = {
 
 } // namespace
 
-Surface::Surface(const Motion& motion, int side) : side_(side), axisymmetric_(motion.grid().axisymmetric()) {
+Surface::Surface(const Motion& motion, int side, std::optional<std::array<int, 2>> cells)
+    : Surface(motion.grid(), side) {
     const Grid& grid = motion.grid();
     const Axis& along = grid.axis(1 - normal_axis(side));
-    for (int k = 0; k < grid.side_nodes(side); ++k) {
-        const auto [i, j] = grid.side_node(side, k);
-        nodes_.push_back(grid.layout().index(i, j));
+    cells_ = cells.value_or(std::array{0, along.cells()});
+    for (int k = cells_[0]; k < cells_[1] + along.degree(); ++k) {
+        ij_.push_back(grid.side_node(side, k));
+        nodes_.push_back(grid.layout().index(ij_.back()[0], ij_.back()[1]));
     }
-    for (int cell = 0; cell < along.cells(); ++cell)
-        for (const auto& [xi, weight] : gauss) {
-            Facet f;
-            const Axis::Weights w = along.weights(cell, xi);
-            f.functions = along.degree() + 1;
-            f.weight = weight;
-            f.length = along.degree() == 0 ? along.length()[cell] : 0.0;
-            for (int a = 0; a < f.functions; ++a) {
-                f.ij[a] = grid.side_node(side, cell + a);
-                f.node[a] = grid.layout().index(f.ij[a][0], f.ij[a][1]);
-                f.value[a] = w.value[a];
-                f.slope[a] = w.slope[a] * along.length()[cell];
-            }
-            facets_.push_back(f);
-        }
+    for (int cell = cells_[0]; cell < cells_[1]; ++cell)
+        for (const auto& [xi, weight] : gauss)
+            add_facet(grid, cell, xi, weight);
+    begin(motion);
+    extent_.resize(static_cast<std::size_t>(cells_[1] - cells_[0]));
+    for (std::size_t q = 0; q < facets_.size(); ++q)
+        for (int a = 0; a < facets_[q].functions; ++a)
+            extent_[q / gauss.size()][a] += facets_[q].value[a] * std::abs(at_[q].area[normal_axis(side)]);
+}
+
+Surface Surface::at(const Motion& motion, int side, double place) {
+    const Grid& grid = motion.grid();
+    const Axis& along = grid.axis(1 - normal_axis(side));
+    const int cell = along.cell_of(place);
+    Surface surface(grid, side);
+    surface.cells_ = {cell, cell + 1};
+    surface.add_facet(grid, cell, (place - along.origin()[cell]) * along.inverse_length()[cell], 1.0);
+    surface.begin(motion);
+    return surface;
+}
+
+void Surface::add_facet(const Grid& grid, int cell, double xi, double weight) {
+    const Axis& along = grid.axis(1 - normal_axis(side_));
+    Facet f;
+    const Axis::Weights w = along.weights(cell, xi);
+    f.cell = cell;
+    f.functions = along.degree() + 1;
+    f.weight = weight;
+    f.length = along.degree() == 0 ? along.length()[cell] : 0.0;
+    for (int a = 0; a < f.functions; ++a) {
+        f.ij[a] = grid.side_node(side_, cell + a);
+        f.node[a] = grid.layout().index(f.ij[a][0], f.ij[a][1]);
+        f.value[a] = w.value[a];
+        f.slope[a] = w.slope[a] * along.length()[cell];
+    }
+    facets_.push_back(f);
+}
+
+void Surface::begin(const Motion& motion) {
     at_.resize(facets_.size());
     refresh(motion);
     for (const Now& now : at_)
         reference_.push_back(now.position);
+    initial_radius_ = mean_radius();
+    initial_area_ = projected_area();
 }
 
 void Surface::refresh(const Motion& motion) {

@@ -36,24 +36,72 @@ const gault_value& value(const ComponentUse& use, const std::string& name) {
     throw std::out_of_range(name);
 }
 
+std::vector<std::string> names(const std::vector<SurfaceUse>& surfaces) {
+    std::vector<std::string> all;
+    for (const SurfaceUse& surface : surfaces)
+        all.push_back(surface.name);
+    return all;
+}
+
 TEST(Scene, HoldsItsGeometryInMetres) {
     const Scene ring = read("annulus");
     EXPECT_EQ(ring.geometry.kind, "annulus");
     EXPECT_EQ(ring.geometry.lower, (std::array{0.02, -0.05}));
     EXPECT_DOUBLE_EQ(ring.geometry.upper[0], 0.2);
     EXPECT_DOUBLE_EQ(ring.geometry.upper[1], 0.15);
-    EXPECT_EQ(ring.geometry.surfaces, (std::array<std::string, 4>{"inner", "outer", "bottom", "top"}));
+    EXPECT_EQ(names(ring.surfaces), (std::vector<std::string>{"inner", "outer", "bottom", "top"}));
     EXPECT_EQ(ring.symmetry, Symmetry::axisymmetric);
 
     const Scene block = read("block");
     EXPECT_EQ(block.geometry.lower, (std::array{-1.0, 0.0}));
     EXPECT_EQ(block.geometry.upper, (std::array{1.0, 1.0}));
-    EXPECT_EQ(block.geometry.surfaces, (std::array<std::string, 4>{"left", "right", "bottom", "top"}));
+    EXPECT_EQ(names(block.surfaces), (std::vector<std::string>{"left", "right", "bottom", "top"}));
     EXPECT_EQ(block.symmetry, Symmetry::plane_strain);
 
     const Scene cylinder = read("cylinder");
     EXPECT_EQ(cylinder.geometry.lower, (std::array{0.0, 0.0}));
-    EXPECT_EQ(cylinder.geometry.surfaces[0], "axis");
+    EXPECT_EQ(cylinder.surfaces[0].name, "axis");
+}
+
+TEST(Scene, CountsThePartsAfterTheSides) {
+    const Scene scene = read("parts");
+    EXPECT_EQ(names(scene.surfaces), (std::vector<std::string>{"inner", "outer", "bottom", "top", "membrane",
+                                                               "casing", "collar", "rim", "band"}));
+    for (int side = 0; side < 4; ++side) {
+        EXPECT_EQ(scene.surfaces[static_cast<std::size_t>(side)].side, side);
+        EXPECT_FALSE(scene.surfaces[static_cast<std::size_t>(side)].cells);
+    }
+    const auto part = [&](int index) { return scene.surfaces[static_cast<std::size_t>(index)]; };
+    EXPECT_EQ(part(4).side, 0);
+    EXPECT_EQ(part(4).cells, (std::array{0, 2}));
+    EXPECT_EQ(part(5).cells, (std::array{2, 3}));
+    EXPECT_EQ(part(6).side, 3);
+    EXPECT_EQ(part(6).cells, (std::array{0, 2}));
+    EXPECT_EQ(part(7).cells, (std::array{2, 3}));
+    EXPECT_EQ(part(8).side, 1);
+    EXPECT_EQ(part(8).cells, (std::array{1, 2}));
+    EXPECT_EQ(scene.boundaries[0].surfaces, (std::vector<int>{1, 7}));
+    EXPECT_EQ(scene.boundaries[2].surfaces, (std::vector<int>{5, 4}));
+    EXPECT_EQ(scene.program_surface, 4);
+    EXPECT_NEAR(scene.program_gauge.value(), 0.2, 1e-15);
+    EXPECT_EQ(scene.observers[0].surface, 8);
+    EXPECT_FALSE(read("annulus").program_gauge);
+}
+
+TEST(Scene, NamesTheKnotsNearestToAnEndOfAPart) {
+    EXPECT_NE(refusal("parts", {{"geometry.parts.casing.y.0", "0.3 m"}}).find("nearest: 0.2 m and 0.6 m"),
+              std::string::npos);
+    EXPECT_EQ(refusal("parts", {{"grid.grading.y", "1.9"}}).substr(folder.size(), 15), "parts.yaml:7:40");
+}
+
+TEST(Scene, HasAsManyPartsAsThereAreBits) {
+    std::vector<Override> changes;
+    while (changes.size() < 44)
+        changes.push_back(
+            {"geometry.parts.p" + std::to_string(changes.size()) + "x", "{of: inner, y: [0, 200 mm]}"});
+    EXPECT_NE(refusal("parts", changes).find("geometry.parts has 49 parts; allowed: 48"), std::string::npos);
+    changes.pop_back();
+    EXPECT_EQ(refusal("parts", changes), "accepted");
 }
 
 Scene read_radial(std::vector<Override> changes) {
@@ -275,8 +323,9 @@ TEST(Scene, TakesTheLeastThatIsEnoughAndSaysWhy) {
         (std::vector<std::string>{
             "title: cylinder (the name of the file)",
             "model.symmetry: axisymmetric (the geometry is a cylinder)",
-            "model.frame: total (material stays in place)", "model.solver: explicit (nothing is assumed about inertia)",
-            "grid.grading.r: 1 (equal cells)", "grid.grading.y: 1 (equal cells)",
+            "model.frame: total (material stays in place)",
+            "model.solver: explicit (nothing is assumed about inertia)", "grid.grading.r: 1 (equal cells)",
+            "grid.grading.y: 1 (equal cells)",
             "grid.basis: quadratic (smooth gradients, so no noise where points cross cells)",
             "points.per_cell: 16 (four a direction)",
             "points.placement: gauss (mass and forces are integrated as surface loads are)",

@@ -293,6 +293,47 @@ TEST_F(Running, AControlIsCommandedInTheUnitThatItsListenerExpects) {
         << text;
 }
 
+TEST_F(Running, AProgramOnAPartCommandsWhatIsOnThePartAlone) {
+    SmallScene s = column(1e-3);
+    s.scene.program_surface = s.part(high_y, 0, 2);
+    EXPECT_EQ(message([&] { run(s); }),
+              "scene.yaml:7:3: program 'test_program' commands 'speed', but no "
+              "boundary on 'part 4' listens to it; none there listens to a program");
+    s.scene.boundaries.back().surfaces = {4};
+    EXPECT_EQ(run(s), Outcome::done);
+    EXPECT_EQ(message([&] {
+                  s.scene.program_surface = high_y;
+                  run(s);
+              }),
+              "scene.yaml:7:3: program 'test_program' commands 'speed', but no boundary on 'top' listens to "
+              "it; none there listens to a program");
+}
+
+TEST_F(Running, AGaugeMeasuresItsPlaceInsteadOfTheMean) {
+    std::vector<std::array<double, 3>> seen;
+    program.measures = {
+        {"displacement", "m", "", 0.0}, {"radius", "m", "", 0.0}, {"initial_radius", "m", "", 0.0}};
+    program.advance = [&](gault_step& step, gault_error&) {
+        seen.push_back({step.measure[0], step.measure[1], step.measure[2]});
+        step.control[0] = 0.1;
+        step.next = 1e-3;
+        step.done = step.time >= 1e-3;
+        return gault_status(GAULT_OK);
+    };
+    wall.constrain = [](gault_nodes& nodes) { // pushes the right end of the top only
+        for (int64_t i = 0; i < nodes.count; ++i) {
+            nodes.fixed[1][i] = 1.0;
+            nodes.velocity[1][i] = -nodes.control[0] * nodes.position[0][i];
+        }
+    };
+    SmallScene s = column(1e-3);
+    s.scene.program_gauge = 0.75;
+    run(s);
+    EXPECT_NEAR(seen.back()[0], 0.75 * 0.1 * 1e-3, 1e-9);
+    EXPECT_NEAR(seen.back()[1], 0.75, 1e-5);
+    EXPECT_DOUBLE_EQ(seen.back()[2], 0.75);
+}
+
 TEST_F(Running, ARecordThatTheHistoryHasAlreadyIsAnError) {
     SmallScene s = column(1e-3);
     program.records[1].name = "kinetic_ratio";

@@ -237,11 +237,20 @@ class SmallScene {
         scene.symmetry = shape.symmetry;
         scene.frame = shape.frame;
         scene.basis = shape.basis;
-        scene.geometry = {"block", shape.lower, shape.upper, {"left", "right", "bottom", "top"}, {}};
+        scene.geometry = {"block", shape.lower, shape.upper, {}};
+        scene.surfaces = {
+            {"left", low_x, {}}, {"right", high_x, {}}, {"bottom", low_y, {}}, {"top", high_y, {}}};
         scene.axes = shape.axes;
         scene.points_per_cell = shape.per_cell;
         scene.placement = shape.placement;
         scene.solver.viscosity = 0.0;
+    }
+
+    // Cells [first, last) of a side, as a surface of its own.
+    int part(int side, int first, int last) {
+        const int index = static_cast<int>(scene.surfaces.size());
+        scene.surfaces.push_back({"part " + std::to_string(index), side, std::array{first, last}});
+        return index;
     }
 
     // Called after the material is complete.
