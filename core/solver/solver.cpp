@@ -42,6 +42,12 @@ void Solver::load(double dt) {
     loaded_ = true;
 }
 
+void Solver::load_first() {
+    if (loaded_) return;
+    boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_);
+    load(0.0);
+}
+
 void Solver::impose_velocity() { // nodes that are not on a surface are free
     for (int side = 0; side < 4; ++side)
         for (const std::size_t n : boundaries_.surface(side).nodes())

@@ -52,9 +52,7 @@ class Solver {
     Solver(const Scene& scene, Model& model, int threads);
     virtual double inertia(int component, std::size_t node) const = 0; // force on a node, N
     void load(double dt);                                              // surface loads at time_, now
-    void load_first() { // at the start, once a program had the chance to set its controls
-        if (!loaded_) load(0.0);
-    }
+    void load_first(); // at the start, once a program had the chance to set its controls
     void impose_velocity();
     double weight(int component, std::size_t node) const {
         return motion_->mass()[node] * gravity_[component];
