@@ -10,6 +10,8 @@ namespace {
 
 int check(const SceneArguments& arguments) {
     const LoadedScene scene(arguments);
+    for (const core::Choice& choice : scene.choices())
+        fmt::print("{}: {} ({})\n", choice.key, choice.value, choice.reason);
     for (const std::string& line : core::check_scene(*scene))
         fmt::print("{}\n", line);
     fmt::print("{}: this scene can run\n", arguments.file);

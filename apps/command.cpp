@@ -35,10 +35,21 @@ void SceneArguments::declare(CLI::App& options) {
 }
 
 LoadedScene::LoadedScene(const SceneArguments& arguments, const std::vector<core::Override>& more)
-    : changes_(joined(overrides(arguments.set), more)),
-      registry_(
-          core::plugin_search_path(core::scene_plugins(arguments.file, changes_), arguments.plugin_path)),
-      scene_(core::read_scene(arguments.file, changes_, registry_)) {}
+    : file_(arguments.file), changes_(joined(overrides(arguments.set), more)),
+      registry_(core::plugin_search_path(core::scene_plugins(file_, changes_), arguments.plugin_path)),
+      scene_(read({})) {
+    choices_ = core::choose_least(
+        scene_, [this](const std::vector<core::Override>& changes) { return read(changes); });
+    scene_ = reread({});
+}
+
+core::Scene LoadedScene::read(const std::vector<core::Override>& more) const {
+    return core::read_scene(file_, joined(changes_, more), registry_);
+}
+
+core::Scene LoadedScene::reread(const std::vector<core::Override>& more) const {
+    return read(joined(core::overrides_of(choices_), more));
+}
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path) {
     options

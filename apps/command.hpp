@@ -1,6 +1,6 @@
 // The sub-commands of gault. Each is a file of its own and a line of the table in gault.cpp.
 #pragma once
-#include "core/config/scene.hpp"
+#include "core/plan/plan.hpp"
 #include "core/registry/registry.hpp"
 
 #include <CLI/CLI.hpp>
@@ -27,6 +27,7 @@ Action declare_check(CLI::App& options);
 Action declare_list(CLI::App& options);
 Action declare_describe(CLI::App& options);
 Action declare_bench(CLI::App& options);
+Action declare_plan(CLI::App& options);
 
 // A scene on the command line: the file, --set, --plugin-path.
 struct SceneArguments {
@@ -40,14 +41,21 @@ struct SceneArguments {
 // A scene as read, with the plugins that it needs.
 class LoadedScene {
   public:
-    // `more`: overrides beyond those of the command line. Throws InputError.
+    // What the scene leaves open is chosen. `more`: overrides beyond those of the command line. Throws InputError.
     explicit LoadedScene(const SceneArguments& arguments, const std::vector<core::Override>& more = {});
     const core::Scene& operator*() const { return scene_; }
     const core::Scene* operator->() const { return &scene_; }
 
+    const std::vector<core::Choice>& choices() const { return choices_; }
+    core::Scene read(const std::vector<core::Override>& more) const; // anew, with nothing chosen but `more`
+    core::Scene
+    reread(const std::vector<core::Override>& more) const; // anew, with what was chosen and `more`
+
   private:
+    std::filesystem::path file_;
     std::vector<core::Override> changes_;
     core::Registry registry_;
+    std::vector<core::Choice> choices_;
     core::Scene scene_;
 };
 

@@ -24,6 +24,7 @@ using gault::core::suggestion;
 constexpr std::array commands{
     Command{"run", "Runs a scene and writes its results", declare_run},
     Command{"check", "Does everything that `run` does before its first step", declare_check},
+    Command{"plan", "Says what is chosen for a scene, why, and what the run will cost", declare_plan},
     Command{"list", "Lists every component with its version and file", declare_list},
     Command{"describe", "Prints a component's parameters, states or signals, and reference",
             declare_describe},

@@ -18,8 +18,9 @@ struct Arguments {
 
 int run(const Arguments& arguments, const std::string& command_line) {
     const LoadedScene scene(arguments.scene);
-    for (const std::string& line : scene->chosen)
-        core::log::debug("{}", line);
+    for (const auto* choices : {&scene.choices(), &scene->chosen})
+        for (const core::Choice& choice : *choices)
+            core::log::debug("{}: {} ({})", choice.key, choice.value, choice.reason);
     core::RunOptions options;
     options.folder = arguments.output.empty() ? fs::path("out") / fs::path(arguments.scene.file).stem()
                                               : fs::path(arguments.output);
@@ -28,6 +29,11 @@ int run(const Arguments& arguments, const std::string& command_line) {
     options.threads = arguments.threads;
     options.command_line = command_line;
     options.program_version = GAULT_VERSION;
+    options.plan =
+        core::to_json(scene.choices(),
+                      core::estimate_cost(
+                          *scene, [&](const std::vector<core::Override>& more) { return scene.reread(more); },
+                          core::threads_that_pay(scene->points(), arguments.threads)));
     return core::run_scene(*scene, options) == core::Outcome::interrupted ? 130 : 0;
 }
 

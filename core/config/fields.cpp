@@ -70,7 +70,7 @@ Fields Fields::section(std::string_view key, const std::vector<std::string>& key
         return map;
     }();
     const Node* node = find(key);
-    return Fields(node ? *node : absent, path(key), keys);
+    return Fields(is_auto(node) ? absent : *node, path(key), keys);
 }
 
 double Fields::quantity(std::string_view key, const std::string& unit, const Bounds& bounds) const {

@@ -35,7 +35,7 @@ class Fields {
 
     const Node* find(std::string_view key) const; // null where absent; a key without a value is an error
     const Node& require(std::string_view key, std::string_view meaning = "") const;
-    // The map at `key`, without a key where it is absent.
+    // The map at `key`, without a key where it is absent or the word auto.
     Fields section(std::string_view key, const std::vector<std::string>& keys) const;
 
     // `otherwise` where the key is absent

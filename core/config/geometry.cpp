@@ -9,9 +9,12 @@ namespace {
 
 using Sides = std::array<std::string, 4>;
 
+constexpr double wide = 1000.0; // cavity radii, where the outer radius is left open
+
 Sides read_annulus(const Fields& fields, Geometry& geometry) {
     const double inner = fields.quantity("inner_radius", "m", positive);
-    const double outer = fields.quantity("outer_radius", "m", positive);
+    geometry.open_ended = is_auto(&fields.require("outer_radius", "the word auto, or a radius in m"));
+    const double outer = geometry.open_ended ? wide * inner : fields.quantity("outer_radius", "m", positive);
     if (!(inner < outer))
         throw InputError(fields.require("inner_radius").where(),
                          fmt::format("{} is {}; it must be less than the outer radius, {}",
@@ -72,7 +75,7 @@ void check_symmetry(const Node& node, const Scene& scene) {
 } // namespace
 
 void note_choice(Scene& scene, const std::string& key, const std::string& value, const std::string& reason) {
-    scene.chosen.push_back(key + ": " + value + " (" + reason + ")");
+    scene.chosen.push_back({key, value, reason});
 }
 
 std::size_t choose(Scene& scene, const Fields& fields, std::string_view key,
@@ -115,6 +118,9 @@ void read_geometry(const Source& source, Scene& scene) {
         if (!(scene.geometry.lower[axis] < scene.geometry.upper[axis]))
             throw InputError(scene.geometry.where,
                              "geometry." + shape->name + " is too small for where it lies");
+    if (scene.geometry.open_ended)
+        note_choice(scene, "geometry.annulus.outer_radius", fmt::format("{:g} m", scene.geometry.upper[0]),
+                    "far away");
 }
 
 void read_model(const Source& source, Scene& scene) {
@@ -123,6 +129,7 @@ void read_model(const Source& source, Scene& scene) {
     scene.symmetry = choose(scene, fields, "symmetry", {"radial", "axisymmetric", "plane_strain"},
                             kind == "block" ? Symmetry::plane_strain : Symmetry::axisymmetric,
                             "the geometry is " + std::string(kind == "annulus" ? "an " : "a ") + kind);
+    scene.symmetry_open = kind != "block" && is_auto(fields.find("symmetry"));
     if (const Node* symmetry = fields.find("symmetry")) check_symmetry(*symmetry, scene);
     if (scene.symmetry == Symmetry::radial) {
         scene.geometry.lower[1] = 0.0;

@@ -13,10 +13,17 @@ constexpr std::int64_t most_cells = 10000000;
 constexpr double most_graded = 1e6; // largest cell over the smallest
 
 void read_cells(const Fields& fields, Scene& scene) {
-    const Node& cells = fields.require("cells", "the number of cells along each axis, [72, 1]");
+    if (is_auto(fields.find("cells"))) {
+        scene.axes[0].cells = 32;
+        scene.axes[1].cells = scene.symmetry == Symmetry::radial ? 1 : 8;
+        note_choice(scene, "grid.cells", fmt::format("[{}, {}]", scene.axes[0].cells, scene.axes[1].cells),
+                    "a few");
+        return;
+    }
+    const Node& cells = fields.require("cells");
     const Bounds allowed{.min = 1, .max = most_cells_an_axis};
     const bool radial = scene.symmetry == Symmetry::radial;
-    if (radial && cells.kind == NodeKind::scalar) {
+    if (cells.kind == NodeKind::scalar) { // one row
         scene.axes[0].cells = static_cast<int>(read_integer(cells, "grid.cells", allowed));
         scene.axes[1].cells = 1;
         return;
@@ -81,7 +88,8 @@ void read_per_cell(const Fields& fields, Scene& scene) {
     const auto count = read_integer(*node, "points.per_cell");
     const std::vector<std::int64_t> allowed =
         radial ? std::vector<std::int64_t>{1, 2, 3, 4, 5, 6} : std::vector<std::int64_t>{1, 4, 9, 16, 25, 36};
-    if (std::find(allowed.begin(), allowed.end(), count) == allowed.end())
+    const bool may_be_radial = scene.symmetry_open && count >= 1 && count <= 6;
+    if (!may_be_radial && std::find(allowed.begin(), allowed.end(), count) == allowed.end())
         throw InputError(node->where(), fmt::format("points.per_cell is {}; allowed{} {}", described(*node),
                                                     radial ? " along the radius:" : ": the squares",
                                                     fmt::join(allowed, ", ")));
@@ -106,8 +114,7 @@ std::vector<double> cell_centres(const Scene& scene, int axis) {
 
 void read_grid(const Source& source, Scene& scene) {
     const auto names = axis_names(scene.geometry);
-    const Fields fields(source.root.require("grid", "the background grid: {cells: [72, 1]}"), "grid",
-                        {"cells", "grading", "basis"});
+    const Fields fields = source.root.section("grid", {"cells", "grading", "basis"});
     read_cells(fields, scene);
     const Fields grading = fields.section("grading", {names[0], names[1]});
     for (std::size_t axis = 0; axis < 2; ++axis)

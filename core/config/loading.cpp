@@ -1,5 +1,6 @@
 #include "core/config/component.hpp"
 #include "core/config/sections.hpp"
+#include "core/grid/grid.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -77,6 +78,26 @@ BoundaryUse read_boundary(const Node& node, const std::string& path, const Sourc
     return boundary;
 }
 
+// Where the outer radius is left open and nothing acts there: a boundary that declares itself made for it.
+void stand_for_the_soil_beyond(const Source& source, const Location& where, Scene& scene) {
+    for (const BoundaryUse& use : scene.boundaries)
+        for (const int surface : use.surfaces)
+            if (scene.surfaces[static_cast<std::size_t>(surface)].side == high_x) return;
+    for (const Component& component : source.registry.components()) {
+        if (component.declaration->kind != GAULT_BOUNDARY ||
+            !(static_cast<const gault_boundary_api*>(component.declaration->api)->flags &
+              GAULT_BOUNDARY_ELASTIC_BEHIND))
+            continue;
+        Node nothing;
+        nothing.kind = NodeKind::map;
+        BoundaryUse use{{high_x}, {&component, read_parameters(nothing, "boundaries", {}, component)}, true};
+        use.model.parameters.where = where;
+        scene.boundaries.push_back(std::move(use));
+        return;
+    }
+    throw InputError(where, "the outer radius is auto, and no plugin stands for the soil beyond it");
+}
+
 } // namespace
 
 void read_gravity(const Source& source, Scene& scene) {
@@ -105,6 +126,7 @@ void read_boundaries(const Source& source, Scene& scene) {
     for (std::size_t i = 0; i < boundaries.items.size(); ++i)
         scene.boundaries.push_back(
             read_boundary(boundaries.items[i], "boundaries." + std::to_string(i), source, scene));
+    if (scene.geometry.open_ended) stand_for_the_soil_beyond(source, boundaries.where(), scene);
 }
 
 void read_program(const Source& source, Scene& scene) {
@@ -123,6 +145,8 @@ void read_solver(const Source& source, Scene& scene) {
     keys.insert(keys.end(), quasi_static.begin(), quasi_static.end());
     const Fields fields = source.root.section("solver", keys);
     const bool inertia = scene.solver.kind == SolverKind::explicit_dynamics;
+    for (const std::string& key : dynamic)
+        if (fields.find(key)) scene.solver.dynamic_key = fields.path(key);
     for (const std::string& key : inertia ? quasi_static : dynamic)
         if (fields.find(key))
             note_choice(scene, fields.path(key), "not used",

@@ -44,10 +44,13 @@ std::optional<std::size_t> index_of(const std::string& word, std::size_t count) 
 }
 
 Node& list_item(Node& list, const std::string& word, const std::string& path, const Location& where) {
-    if (const auto index = index_of(word, list.items.size())) return list.items[*index];
-    const std::string allowed =
-        list.items.empty() ? "an empty list" : "a list, items 0 to " + std::to_string(list.items.size() - 1);
-    throw InputError(where, path + " is " + allowed + "; found " + in_quotes(word));
+    const std::size_t count = list.items.size();
+    const auto index = index_of(word, count + 1);
+    if (!index)
+        throw InputError(where, path + " is a list, items 0 to " + std::to_string(count) +
+                                    ", of which the last would be new; found " + in_quotes(word));
+    if (*index == count) list.items.emplace_back();
+    return list.items[*index];
 }
 
 Node& map_item(Node& map, const std::string& word, const Place& place) {
@@ -71,6 +74,7 @@ void apply_override(Node& root, const Override& change) {
     for (const auto& word : words) {
         if (word.empty() || word.size() > longest_key)
             throw InputError(place.location(), "a key is words with dots between them, like grid.cells.0");
+        if (node->kind == NodeKind::scalar && node->text == "auto") *node = Node{};
         if (node->kind == NodeKind::scalar)
             throw InputError(place.location(), path + " is a single value, " + in_quotes(node->text) +
                                                    "; it has no " + in_quotes(word));

@@ -9,8 +9,8 @@ namespace config {
 namespace {
 
 const std::vector<std::string> keys = {
-    "gault",   "title",   "plugins", "geometry",   "model",   "grid",   "points", "materials", "soil",
-    "regions", "gravity", "initial", "boundaries", "program", "solver", "output", "reference"};
+    "gault", "title",   "accuracy", "plugins", "geometry",   "model",   "grid",   "points", "materials",
+    "soil",  "regions", "gravity",  "initial", "boundaries", "program", "solver", "output", "reference"};
 
 Node parse_with_overrides(std::string text, const std::filesystem::path& file,
                           const std::vector<Override>& overrides) {
@@ -49,6 +49,7 @@ Scene read_scene_text(std::string text, const std::filesystem::path& file,
     scene.file = file;
     check_version(root);
     scene.title = read_title(root, scene);
+    scene.accuracy = root.quantity("accuracy", "1", {.min = 1e-6, .max = 0.1}, scene.accuracy);
     read_geometry(source, scene);
     read_model(source, scene);
     read_grid(source, scene);

@@ -24,6 +24,7 @@ enum class SolverKind { explicit_dynamics, quasi_static };
 struct Geometry {
     std::string kind;                   // annulus | cylinder | block
     std::array<double, 2> lower, upper; // m
+    bool open_ended = false;            // the outer radius was left open
     Location where;
 };
 
@@ -72,13 +73,19 @@ struct InitialStress {
     bool gravity = false; // the stress follows the weight of the soil
 };
 
+struct Choice {                     // of a value that the scene left open
+    std::string key, value, reason; // "model.frame", "total", "material stays in place"
+};
+
 struct BoundaryUse {
     std::vector<int> surfaces; // indices into Scene::surfaces
     ComponentUse model;
+    bool chosen = false; // not in the scene: it stands for the soil beyond a radius that was left open
 };
 
 struct SolverSettings {
     SolverKind kind = SolverKind::explicit_dynamics;
+    std::string dynamic_key; // a key of the scene that only the explicit solver heeds; empty: there is none
     // quasi-static
     double strain_step = 0.005; // largest strain component of a step that is aimed at
     double tolerance = 1e-6;    // forces out of balance over all forces
@@ -120,6 +127,7 @@ struct Scene {
     std::filesystem::path file;
 
     Symmetry symmetry;
+    bool symmetry_open; // left open: `symmetry` is what is taken for the time being
     Frame frame;
     Basis basis;
     Geometry geometry;
@@ -154,8 +162,9 @@ struct Scene {
     };
     std::vector<ObserverUse> observers;
 
-    // What was left to the program and what it took: "model.frame: total (material stays in place)".
-    std::vector<std::string> chosen;
+    double accuracy = 0.005; // relative, that what is left open is chosen for
+
+    std::vector<Choice> chosen; // what was left open, and what it was taken for
 };
 
 struct Override { // --set KEY=VALUE: dots for maps, numbers for list items

@@ -194,7 +194,11 @@ std::string details(const gault_boundary_api& api) {
     const char* imposes = !api.load        ? "prescribed velocities"
                           : !api.constrain ? "loads"
                                            : "prescribed velocities, loads";
-    return control_table(api) + fmt::format("\nimposes: {}\n", imposes);
+    std::string text = control_table(api) + fmt::format("\nimposes: {}\n", imposes);
+    if (api.flags & GAULT_BOUNDARY_UNIFORM) text += "\nalong an axis: the same everywhere\n";
+    if (api.flags & GAULT_BOUNDARY_HOLDS_NORMAL) text += "\nacross the surface: holds it still, no more\n";
+    if (api.flags & GAULT_BOUNDARY_ELASTIC_BEHIND) text += "\nstands for: elastic soil without bound\n";
+    return text;
 }
 
 std::string details(const gault_program_api& api) {

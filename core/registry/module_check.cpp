@@ -54,6 +54,10 @@ void check_api(const gault_material_api& api, const std::string& owner) {
 
 void check_api(const gault_boundary_api& api, const std::string& owner) {
     check_that(api.constrain || api.load, owner, "has neither a constrain nor a load function");
+    constexpr uint32_t known =
+        GAULT_BOUNDARY_UNIFORM | GAULT_BOUNDARY_HOLDS_NORMAL | GAULT_BOUNDARY_ELASTIC_BEHIND;
+    check_that((api.flags & ~known) == 0, owner,
+               fmt::format("has the flags {:#x}; of a boundary the host knows {:#x}", api.flags, known));
     check_signals(api.controls, api.control_count, "control", owner);
 }
 

@@ -1,7 +1,7 @@
 #include "core/registry/registry.hpp"
+#include "core/base/isa.hpp"
 #include "core/base/log.hpp"
 #include "core/base/suggest.hpp"
-#include "core/base/isa.hpp"
 #include "core/registry/loader.hpp"
 
 #include <algorithm>

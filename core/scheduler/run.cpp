@@ -1,17 +1,21 @@
 #include "core/scheduler/run.hpp"
 #include "core/base/isa.hpp"
 #include "core/base/log.hpp"
+#include "core/base/memory.hpp"
+#include "core/scheduler/elasticity.hpp"
 #include "core/scheduler/progress.hpp"
 #include "core/scheduler/simulation.hpp"
 #include "core/scheduler/snapshot.hpp"
 #include "core/scheduler/verification.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <optional>
 #include <thread>
 
 namespace gault::core {
@@ -36,10 +40,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// An observer's result is a number, a program's {value, unit, ...} or {absent, ...}.
+// An observer's result is a number, a program's {value, unit, ...}.
 std::string derived_text(const nlohmann::json& result) {
     if (result.is_number()) return fmt::format("{:.6g}", result.get<double>());
-    if (result.contains("absent")) return fmt::format("not derived: {}", result["absent"].get<std::string>());
     const std::string unit = result["unit"], note = result["note"];
     return fmt::format("{:.6g}{}{}{}", result["value"].get<double>(), unit == "1" ? "" : " " + unit,
                        note.empty() ? "" : "; ", note);
@@ -63,12 +66,16 @@ class Run {
     void frames_due(bool last);
     void write_frame();
     void summary(const char* status, const std::string& message);
+    nlohmann::json plan();
     void fail(const std::string& message); // what was written stays, with the reason
     std::string advice();
     std::string kinetic_caution() const; // empty: none
+    std::string yield_caution();         // empty: none
+    bool elastic_behind() const;
     void derive();
     void report();
     void report_reference() const;
+    void report_derived() const;
     Solver& solver() { return simulation_.solver(); }
 
     const Scene& scene_;
@@ -78,6 +85,7 @@ class Run {
     Simulation simulation_;
     Verification verification_;
     ResultWriter writer_;
+    std::optional<Elasticity> elasticity_; // where a boundary stands for elastic soil
     int64_t frame_step_ = -1, frames_ = 0;
     double stepping_ = 0.0; // s
     nlohmann::json reference_, derived_;
@@ -144,16 +152,31 @@ void Run::fail(const std::string& message) {
     writer_.finish();
 }
 
+// What was chosen, what it was estimated to cost, and what came.
+nlohmann::json Run::plan() {
+    nlohmann::json all = options_.plan;
+    for (const Choice& choice : scene_.chosen)
+        all["choices"].push_back({{"key", choice.key}, {"value", choice.value}, {"reason", choice.reason}});
+    if (all.contains("estimate"))
+        all["came"] = {{"points", simulation_.points()},
+                       {"steps", solver().steps()},
+                       {"constitutive_updates", solver().updates()},
+                       {"seconds", seconds_since(start_)},
+                       {"peak_bytes", peak_resident_bytes()}};
+    return all;
+}
+
 void Run::summary(const char* status, const std::string& message) {
     const double wall = seconds_since(start_);
     const Grid& grid = simulation_.model().grid;
     std::vector<std::string> said = cautions(scene_);
-    if (const std::string caution = kinetic_caution(); !caution.empty()) said.push_back(caution);
+    for (const std::string& caution : {kinetic_caution(), yield_caution()})
+        if (!caution.empty()) said.push_back(caution);
     nlohmann::json s = {
         {"status", status},
         {"title", scene_.title},
         {"program_version", options_.program_version},
-        {"plan", scene_.chosen},
+        {"plan", plan()},
         {"cautions", said},
         {"counts",
          {{"points", simulation_.points()},
@@ -187,6 +210,26 @@ std::string Run::kinetic_caution() const {
         100.0 * ratio, scene_.solver.mass_scaling > 1.0 ? ", or lower solver.mass_scaling" : "");
 }
 
+bool Run::elastic_behind() const {
+    return scene_.frame == Frame::total &&
+           std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(), [](const BoundaryUse& use) {
+               return static_cast<const gault_boundary_api*>(use.model.component->declaration->api)->flags &
+                      GAULT_BOUNDARY_ELASTIC_BEHIND;
+           });
+}
+
+std::string Run::yield_caution() {
+    if (!elasticity_) return "";
+    const double outer = scene_.geometry.upper[0];
+    const Axis& axis = simulation_.model().grid.axis(0);
+    if (elasticity_->largest_inelastic_radius(solver().motion()) < outer - axis.length()[axis.cells() - 1])
+        return "";
+    return fmt::format(
+        "caution: the soil yields up to the boundary at {:.4g} m, which stands for elastic soil "
+        "beyond; about {:.3g} m would have been enough",
+        outer, elasticity_->yielding_radius(solver().motion(), outer));
+}
+
 void Run::report_reference() const {
     for (const auto& c : reference_.value("curves", nlohmann::json::array())) {
         const std::string y = c["y"];
@@ -217,6 +260,18 @@ void Run::derive() {
     derived_[name] = std::move(results);
 }
 
+void Run::report_derived() const {
+    std::vector<std::string> absent;
+    for (const auto& [name, results] : derived_.items())
+        for (const auto& [key, value] : results.items())
+            if (value.is_object() && value.contains("absent"))
+                absent.push_back(key);
+            else
+                log::info("{} {}: {}", name, key, derived_text(value));
+    if (!absent.empty())
+        log::info("not derived, for reasons that are in summary.json: {}", fmt::join(absent, ", "));
+}
+
 void Run::report() {
     const double updates = static_cast<double>(solver().updates());
     log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver().steps(),
@@ -225,11 +280,10 @@ void Run::report() {
     log::info("kinetic energy at most {:.2g} % of the strain energy once the load has set in; energy error "
               "{:.2g} %",
               100.0 * simulation_.largest_kinetic_ratio(writer_.rows()), 100.0 * solver().energies().error());
-    if (const std::string caution = kinetic_caution(); !caution.empty()) log::warn("{}", caution);
+    for (const std::string& caution : {kinetic_caution(), yield_caution()})
+        if (!caution.empty()) log::warn("{}", caution);
     report_reference();
-    for (const auto& [name, results] : derived_.items())
-        for (const auto& [key, value] : results.items())
-            log::info("{} {}: {}", name, key, derived_text(value));
+    report_derived();
     log::info("results in {}", writer_.folder().string());
 }
 
@@ -261,6 +315,7 @@ Outcome Run::go() {
         log::warn("{}", caution);
     Interrupts interrupts;
     Progress progress(simulation_.points(), options_.quiet);
+    if (elastic_behind()) elasticity_.emplace(simulation_.model(), solver().motion());
     try {
         simulation_.start();
         if (simulation_.row_due()) writer_.row(simulation_.row());
@@ -301,6 +356,10 @@ std::vector<std::string> cautions(const Scene& scene) {
     if (scene.points_per_cell == 1 && (dynamic || scene.symmetry != Symmetry::radial))
         all.push_back("caution: one point a cell passes no motion whose sign alternates from node to node, "
                       "so forces of that shape are never balanced; take 4 points");
+    if (scene.points_per_cell == 1 && scene.basis == Basis::quadratic)
+        all.push_back(
+            "caution: one point a cell does not integrate quadratic functions: the error falls with the "
+            "first power of the cells; take 2 points in radial symmetry, 4 elsewhere");
     if (scene.placement == Placement::uniform && scene.points_per_cell == 4 &&
         scene.basis == Basis::quadratic)
         all.push_back(
@@ -323,7 +382,9 @@ std::vector<std::string> check_scene(const Scene& scene) {
     Simulation simulation(scene, 1);
     Verification verification(scene, simulation.columns());
     const Model& model = simulation.model();
-    std::vector<std::string> lines = scene.chosen;
+    std::vector<std::string> lines;
+    for (const Choice& choice : scene.chosen)
+        lines.push_back(fmt::format("{}: {} ({})", choice.key, choice.value, choice.reason));
     for (std::string& caution : cautions(scene))
         lines.push_back(std::move(caution));
     lines.insert(lines.end(), model.description.begin(), model.description.end());

@@ -3,6 +3,7 @@
 #include "core/config/scene.hpp"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace gault::core {
@@ -13,6 +14,7 @@ struct RunOptions {
     bool quiet = false;           // no progress
     int threads = 0;              // 0: as many as pay
     std::string command_line, program_version;
+    nlohmann::json plan = nlohmann::json::object(); // {choices, estimate}, for the summary
 };
 
 enum class Outcome { done, interrupted };

@@ -92,18 +92,29 @@ double Simulation::share_to_frame(double before) const {
 }
 
 void Simulation::start() {
-    answer_ = program_.advance(0.0, solver_->allowed_step());
+    announced_ = solver_->allowed_step();
+    answer_ = program_.advance(0.0, announced_);
+}
+
+// Asks the program again how to begin a step of this length at most.
+void Simulation::repeat(double dt) {
+    announced_ = dt;
+    answer_ = program_.repeat(dt);
 }
 
 Simulation::Moved Simulation::step() {
     const double dt = step_length();
+    // What the program commands is for the end of the step that was announced.
+    if (solver_->repeatable() && dt < std::min(announced_, answer_.next - solver_->time()) * (1.0 - 1e-12))
+        repeat(dt);
     if (!solver_->step(dt)) {
-        answer_ = program_.repeat(solver_->allowed_step());
+        repeat(solver_->allowed_step());
         return Moved::no;
     }
     const bool watch = solver_->repeatable() && !frames_.empty();
     const double before = watch ? measured(scene_.frames.measure, -dt) : 0.0;
-    answer_ = program_.advance(dt, solver_->allowed_step());
+    announced_ = solver_->allowed_step();
+    answer_ = program_.advance(dt, announced_);
     if (!answer_.repeat && watch) {
         frame_rate_ = (measured(scene_.frames.measure) - before) / dt;
         answer_.fraction = share_to_frame(before);
@@ -112,7 +123,7 @@ Simulation::Moved Simulation::step() {
     }
     if (!answer_.repeat) return Moved::yes;
     solver_->undo(answer_.fraction);
-    answer_ = program_.repeat(solver_->allowed_step());
+    repeat(solver_->allowed_step());
     return Moved::no;
 }
 

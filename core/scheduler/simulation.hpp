@@ -46,6 +46,7 @@ class Simulation {
     double step_length();
     double share_to_frame(double before) const;
     double measured(const std::string& name, double since) const;
+    void repeat(double dt);
 
     const Scene& scene_;
     Model model_;
@@ -54,6 +55,7 @@ class Simulation {
     std::vector<ColumnInfo> columns_;
     std::vector<Crossing> frames_;
     double frame_rate_ = 0.0; // of the measure that frames wait for, a second
+    double announced_ = 0.0;  // length of the coming step that the program was told, s
     Program::Answer answer_{};
 };
 

@@ -11,6 +11,7 @@ struct FarField {
         "The infinite elastic soil outside a cylinder: a spring, and dashpots for waves.";
     static constexpr const char* reference =
         "Lysmer, J. and Kuhlemeyer, R. L. (1969), J. Eng. Mech. Div. ASCE 95, 859-877";
+    static constexpr uint32_t flags = gault::uniform | gault::elastic_behind;
 
     void load(gault::Facet& facet) const {
         const double r = facet.position(0), start = r - facet.displacement(0),

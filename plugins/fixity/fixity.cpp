@@ -7,6 +7,7 @@ struct Fixity {
     static constexpr const char* name = "fixity";
     static constexpr const char* version = "1.0.0";
     static constexpr const char* doc = "Holds the soil still: in the directions named, or in all.";
+    static constexpr uint32_t flags = gault::uniform;
 
     std::optional<bool> x, y, z;
     std::array<bool, 3> held;
@@ -33,6 +34,7 @@ struct Roller {
     static constexpr const char* name = "roller";
     static constexpr const char* version = "1.0.0";
     static constexpr const char* doc = "Holds the soil along the normal of a surface and lets it slide.";
+    static constexpr uint32_t flags = gault::uniform | gault::holds_normal;
 
     void constrain(gault::Node& node) const {
         for (int axis = 0; axis < 3; ++axis)

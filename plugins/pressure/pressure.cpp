@@ -8,6 +8,7 @@ struct Pressure {
     static constexpr const char* version = "1.0.0";
     static constexpr const char* doc =
         "A pressure on a surface, compression positive, that follows it as it moves.";
+    static constexpr uint32_t flags = gault::uniform;
 
     static constexpr std::array controls{gault::signal("pressure", "Pa",
                                                        "Commanded by a program, in place of value or table.",

@@ -51,12 +51,11 @@ constexpr double straight = 0.01;
 inline Rows first_loading(const Rows& rows) {
     Rows all;
     for (const Row& row : rows) {
-        if (row.loop > 0 || (!all.empty() && row.strain <= all.back().strain)) continue;
-        if (!all.empty() && row.pressure_step > 0 && row.pressure_step == all.back().pressure_step &&
-            row.phase == all.back().phase)
-            all.back() = row;
-        else
-            all.push_back(row);
+        const bool same_step = !all.empty() && row.pressure_step > 0 && row.phase == all.back().phase &&
+                               row.pressure_step == all.back().pressure_step;
+        if (row.loop > 0 || (!all.empty() && !same_step && row.strain <= all.back().strain)) continue;
+        if (same_step) all.pop_back();
+        all.push_back(row);
     }
     return all;
 }

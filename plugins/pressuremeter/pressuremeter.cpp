@@ -365,7 +365,7 @@ struct Pressuremeter {
     }
 
     void write_row(gault::Step& step, const State& now) const {
-        const Part part = present(step).value_or(Part{});
+        const Part part = step.first() ? Part{} : present(step).value();
         step.record(cavity_strain) = now.strain;
         step.record(true_pressure) = now.pressure;
         step.record(nominal_pressure) = step.measure(normal_force) / step.measure(initial_area);

@@ -7,6 +7,7 @@ struct Wall {
     static constexpr const char* name = "wall";
     static constexpr const char* version = "1.0.0";
     static constexpr const char* doc = "A wall that a program moves into the soil or loads with a pressure.";
+    static constexpr uint32_t flags = gault::uniform;
 
     enum { velocity, pressure, drive };
     static constexpr std::array controls{

@@ -1,9 +1,9 @@
 // A scene of configs/, with changes, driven to the end of its program; the points are then at hand.
 #pragma once
-#include "core/scheduler/program.hpp"
+#include "core/plan/plan.hpp"
 #include "core/scheduler/run.hpp"
+#include "core/scheduler/simulation.hpp"
 #include "core/scheduler/snapshot.hpp"
-#include "core/solver/explicit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,51 +18,54 @@ inline const Registry& registry() {
     return all;
 }
 
-// `file` relative to configs/, without its ending.
+// `file` relative to configs/, without its ending. What the scene leaves open is chosen as the program does.
 inline Scene scene_of(const std::string& file, const std::vector<Override>& overrides) {
-    return read_scene(GAULT_SOURCE_DIR "/configs/" + file + ".yaml", overrides, registry());
+    const Reread read = [&](const std::vector<Override>& more) {
+        std::vector<Override> all = overrides;
+        all.insert(all.end(), more.begin(), more.end());
+        return read_scene(GAULT_SOURCE_DIR "/configs/" + file + ".yaml", all, registry());
+    };
+    return read(overrides_of(choose_least(read({}), read)));
 }
 
 struct HardScene {
     Scene scene;
-    Model model;
-    ExplicitSolver solver;
-    Program program;
-    std::vector<std::vector<double>> rows; // time, then the records
+    Simulation simulation;
+    Solver& solver;
+    std::vector<std::vector<double>> rows; // of the history
 
     explicit HardScene(const std::string& file, const std::vector<Override>& overrides = {})
-        : scene(scene_of(file, overrides)), model(build_model(scene)), solver(scene, model, 1),
-          program(scene, solver) {}
+        : scene(scene_of(file, overrides)), simulation(scene, 1), solver(simulation.solver()) {}
 
-    // Steps end at events; `after` is called at the end of each.
+    // `after` is called at the end of each step.
     HardScene& run(const std::function<void()>& after = {}) {
-        Program::Answer answer = program.advance(0.0, solver.allowed_step());
-        keep(answer);
-        while (!answer.done) {
-            const double dt = std::min(solver.allowed_step(), answer.next - solver.time());
-            solver.step(dt);
-            answer = program.advance(dt, solver.allowed_step());
-            keep(answer);
+        simulation.start();
+        rows.push_back(simulation.row());
+        while (!simulation.done()) {
+            if (simulation.step() == Simulation::Moved::no) continue;
+            if (simulation.row_due()) rows.push_back(simulation.row());
             if (after) after();
         }
         return *this;
     }
     std::vector<double> column(const std::string& name) const {
-        const std::size_t k = name == "time" ? 0 : 1 + program.column(name).value();
+        std::size_t k = 0;
+        while (simulation.columns().at(k).name != name)
+            ++k;
         std::vector<double> values;
         for (const auto& row : rows)
             values.push_back(row[k]);
         return values;
     }
     double last(const std::string& name) const { return column(name).back(); }
-    PointArrays points() const { return collect(const_cast<HardScene*>(this)->solver.motion()); }
-
-  private:
-    void keep(const Program::Answer& answer) {
-        if (!answer.emit) return;
-        rows.push_back({solver.time()});
-        rows.back().insert(rows.back().end(), program.record().begin(), program.record().end());
+    // The pressure of the first row whose cavity strain is `strain`, to 1e-7.
+    double pressure_at(double strain) const {
+        const auto e = column("cavity_strain"), p = column("true_pressure");
+        for (std::size_t i = 0; i < e.size(); ++i)
+            if (std::abs(e[i] - strain) <= 1e-7 * std::max(1.0, strain)) return p[i];
+        return std::nan("");
     }
+    PointArrays points() const { return collect(solver.motion()); }
 };
 
 // Relative L2 norm over the raw points, weighted with their present volume; `exact` takes the point's number.

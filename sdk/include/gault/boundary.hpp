@@ -6,6 +6,8 @@
 //   struct Support { // name, version, doc, parameters, prepare(): see component.hpp
 //       static constexpr std::array controls{gault::signal("pressure", "Pa", "Commanded by a program.", 0.0)};
 //
+//       static constexpr uint32_t flags = gault::uniform; // may be left out; see gault.h
+//
 //       void constrain(gault::Node& node) const; // prescribes velocities at a grid node
 //       void load(gault::Facet& facet) const;    // pushes or pulls at a quadrature point; one of the two is enough
 //   };
@@ -16,6 +18,9 @@
 
 namespace gault {
 inline namespace GAULT_ISA {
+
+constexpr uint32_t uniform = GAULT_BOUNDARY_UNIFORM, holds_normal = GAULT_BOUNDARY_HOLDS_NORMAL,
+                   elastic_behind = GAULT_BOUNDARY_ELASTIC_BEHIND;
 
 class Node {
   public:
@@ -50,9 +55,9 @@ class Facet {
     double displacement(int axis) const { return facets_->displacement[axis][i_]; } // m
     double velocity(int axis) const { return facets_->velocity[axis][i_]; }         // m/s; see gault.h
     // Of the soil behind, at the start of the run.
-    double p_impedance() const { return facets_->impedance[0][i_]; }    // Pa s/m
-    double s_impedance() const { return facets_->impedance[1][i_]; }    // Pa s/m
-    double shear_modulus() const { return facets_->shear_modulus[i_]; } // Pa
+    double p_impedance() const { return facets_->impedance[0][i_]; }                        // Pa s/m
+    double s_impedance() const { return facets_->impedance[1][i_]; }                        // Pa s/m
+    double shear_modulus() const { return facets_->shear_modulus[i_]; }                     // Pa
     double initial_traction(int axis) const { return facets_->initial_traction[axis][i_]; } // Pa
 
     void set_pressure(double pressure) { facets_->pressure[i_] = pressure; } // Pa, along -normal, follows it
@@ -86,6 +91,11 @@ struct has_controls : std::false_type {};
 template <class T>
 struct has_controls<T, std::void_t<decltype(T::controls)>> : std::true_type {};
 
+template <class T, class = void>
+struct has_flags : std::false_type {};
+template <class T>
+struct has_flags<T, std::void_t<decltype(T::flags)>> : std::true_type {};
+
 template <class T>
 gault_status constrain(const void* self, gault_nodes* nodes, gault_error* error) noexcept {
     return guarded(error, [&]() -> gault_status {
@@ -114,6 +124,7 @@ constexpr gault_boundary_api boundary_api() {
                   "a boundary has constrain() const or load() const");
     gault_boundary_api a{};
     a.size = sizeof a;
+    if constexpr (has_flags<T>::value) a.flags = T::flags;
     if constexpr (has_controls<T>::value) {
         a.controls = T::controls.data();
         a.control_count = static_cast<uint32_t>(T::controls.size());

@@ -280,6 +280,13 @@ typedef struct gault_facets { /* [grows] quadrature points on the selected surfa
                             row-major, for an implicit solver */
 } gault_facets;
 
+enum { /* flags of a boundary: what the host may rely on, whatever the parameters */
+    GAULT_BOUNDARY_UNIFORM = 1u << 0,        /* the answer does not depend on where along the axis of a cylinder it is */
+    GAULT_BOUNDARY_HOLDS_NORMAL = 1u << 1,   /* holds what crosses the surface still and does nothing else */
+    GAULT_BOUNDARY_ELASTIC_BEHIND = 1u << 2  /* stands for soil beyond a cylinder that has no bound and is elastic; needs no
+                                                parameter. The host watches whether the soil at the surface is. */
+};
+
 typedef struct gault_boundary_api { /* [grows] at least one of the two functions */
     uint32_t size;
     uint32_t flags;

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace gault::core {
+
+double peak_resident_bytes(); // of this process so far
+
+} // namespace gault::core

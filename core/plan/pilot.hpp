@@ -1,0 +1,17 @@
+// A run of the scene that is cheap: without inertia, on few cells, in radial symmetry where that shows it.
+#pragma once
+#include "core/plan/plan.hpp"
+
+namespace gault::core {
+
+struct Pilot {
+    std::size_t points = 0;
+    int64_t steps = 0, updates = 0, iterations = 0;
+    double end = 0.0;              // of the program, s
+    double inelastic_radius = 0.0; // the largest, reference, at which the soil is not elastic at the end, m
+    std::string trouble;           // why it did not come to its end; empty: it did
+};
+
+Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds);
+
+} // namespace gault::core
