@@ -40,9 +40,10 @@ void print(const std::vector<core::Choice>& choices) {
         fmt::print("    {:<{}}  {:<{}}  {}\n", choice.key, key, choice.value, value, choice.reason);
 }
 
-core::Estimate estimate(const LoadedScene& scene, int threads) {
+core::Estimate estimate(const LoadedScene& scene) {
     return core::estimate_cost(
-        *scene, [&](const std::vector<core::Override>& more) { return scene.reread(more); }, threads);
+        *scene, [&](const std::vector<core::Override>& more) { return scene.reread(more); },
+        core::threads_that_pay(scene->points(), 0), 10.0);
 }
 
 // What is set by hand and differs from the least that is enough.
@@ -62,17 +63,18 @@ void compare_with_least(const LoadedScene& scene, const SceneArguments& argument
     fmt::print("\nset by hand, where this would have been chosen:\n");
     print(set);
     fmt::print("\nwith which it would take:\n    ");
-    print(estimate(least, core::threads_that_pay(least->points(), 0)));
+    print(estimate(least));
 } catch (const core::InputError&) { // parts that lie on the knots of the grid set by hand, and no other
 }
 
 int plan(const SceneArguments& arguments) {
     const LoadedScene scene(arguments);
     fmt::print("{}, for an accuracy of {:g} %\n\nchosen:\n", scene->title, 100.0 * scene->accuracy);
-    print(scene.choices());
-    print(scene->chosen);
+    std::vector<core::Choice> choices = scene.choices();
+    choices.insert(choices.end(), scene->chosen.begin(), scene->chosen.end());
+    print(choices);
     fmt::print("\nit will take:\n    ");
-    print(estimate(scene, core::threads_that_pay(scene->points(), 0)));
+    print(estimate(scene));
     compare_with_least(scene, arguments);
     return 0;
 }

@@ -33,7 +33,7 @@ int run(const Arguments& arguments, const std::string& command_line) {
         core::to_json(scene.choices(),
                       core::estimate_cost(
                           *scene, [&](const std::vector<core::Override>& more) { return scene.reread(more); },
-                          core::threads_that_pay(scene->points(), arguments.threads)));
+                          core::threads_that_pay(scene->points(), arguments.threads), 1.0));
     return core::run_scene(*scene, options) == core::Outcome::interrupted ? 130 : 0;
 }
 

@@ -89,6 +89,8 @@ struct SolverSettings {
     // quasi-static
     double strain_step = 0.005; // largest strain component of a step that is aimed at
     double tolerance = 1e-6;    // forces out of balance over all forces
+    double uneven = 1e-3;       // of the way so far: how far a step may miss the motion of the one before it,
+                                // where the soil's answer depends on the rate
     // explicit
     double time_step_factor = 0.9; // of the true limit 2 / omega_max
     double damping = 0.0;          // Cundall's local coefficient, 0 <= alpha < 1

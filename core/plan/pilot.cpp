@@ -12,6 +12,7 @@
 namespace gault::core {
 namespace {
 
+constexpr int fewest = 4;        // cells along an axis that has so many
 constexpr int radial_cells = 40; // enough for a step to be as long as on a fine grid
 
 Override cells(int x, int y) {
@@ -32,7 +33,7 @@ std::vector<Override> coarse_pilot(const Scene& scene, int factor) {
     std::array<int, 2> n{};
     std::array<double, 2> ratio{};
     for (std::size_t k = 0; k < 2; ++k) {
-        n[k] = std::max(1, scene.axes[k].cells / factor);
+        n[k] = std::max(std::min(scene.axes[k].cells, fewest), scene.axes[k].cells / factor);
         ratio[k] = std::pow(scene.axes[k].ratio, static_cast<double>(scene.axes[k].cells) / n[k]);
     }
     const char* across = scene.geometry.kind == "block" ? "x" : "r";
@@ -46,7 +47,7 @@ std::optional<Scene> pilot_scene(const Scene& scene, const Reread& reread) {
         {"model.solver", "quasi_static"}, {"model.frame", "total"}, {"output", "{}"}, {"reference", "{}"}};
     std::vector<std::vector<Override>> tries;
     if (not_radial(scene).empty()) tries.push_back(radial_pilot(scene));
-    for (const int factor : {4, 2})
+    for (const int factor : {8, 4, 2})
         tries.push_back(coarse_pilot(scene, factor));
     for (std::vector<Override>& changes : tries) {
         changes.insert(changes.end(), always.begin(), always.end());

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double room = 1.25;        // radius of the domain over that of the soil that yields
 constexpr double least_radii = 10.0; // of the domain, in radii of the cavity
-constexpr double pilot_seconds = 1.0, sizing_seconds = 20.0;
+constexpr double sizing_seconds = 20.0;
 
 uint32_t flags_of(const BoundaryUse& use) {
     return static_cast<const gault_boundary_api*>(use.model.component->declaration->api)->flags;
@@ -269,11 +269,11 @@ std::vector<Override> overrides_of(const std::vector<Choice>& choices) {
     return overrides;
 }
 
-Estimate estimate_cost(const Scene& scene, const Reread& reread, int threads) {
+Estimate estimate_cost(const Scene& scene, const Reread& reread, int threads, double patience) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     Estimate estimate;
     estimate.points = scene.points();
-    const Pilot pilot = run_pilot(scene, reread, pilot_seconds);
+    const Pilot pilot = run_pilot(scene, reread, patience);
     try {
         const Trial trial = first_steps(scene, threads);
         const double n = static_cast<double>(estimate.points);

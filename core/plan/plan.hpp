@@ -24,8 +24,8 @@ struct Estimate {
 std::vector<Choice> choose_least(const Scene& scene, const Reread& reread);
 std::vector<Override> overrides_of(const std::vector<Choice>& choices);
 
-// From a pilot run on a coarse grid and the first steps of the scene itself.
-Estimate estimate_cost(const Scene& scene, const Reread& reread, int threads);
+// From a pilot run on a coarse grid, which may take `patience` seconds, and the first steps of the scene itself.
+Estimate estimate_cost(const Scene& scene, const Reread& reread, int threads, double patience);
 
 nlohmann::json to_json(const std::vector<Choice>& choices, const Estimate& estimate);
 

@@ -186,6 +186,7 @@ std::string details(const gault_material_api& api) {
     text += api.flags & GAULT_HAS_TANGENT ? "\ntangent: its own\n"
                                           : "\ntangent: differentiated numerically by the host\n";
     if (api.flags & GAULT_FINITE_STRAIN) text += "\nkinematics: wants the deformation gradient\n";
+    if (api.flags & GAULT_RATE_DEPENDENT) text += "\nrate: its answer depends on it\n";
     if (api.flags & GAULT_ONE_AT_A_TIME) text += "\nthreads: one call at a time\n";
     return text;
 }

@@ -35,6 +35,7 @@ class Material {
     bool wants(HostField field) const;
     bool finite_strain() const { return api().flags & GAULT_FINITE_STRAIN; }
     bool has_tangent() const { return (api().flags & GAULT_HAS_TANGENT) && !finite_strain(); }
+    bool rate_dependent() const { return api().flags & GAULT_RATE_DEPENDENT; }
     bool one_at_a_time() const { return api().flags & GAULT_ONE_AT_A_TIME; }
     bool rotates_states() const { return rotates_states_; }
 

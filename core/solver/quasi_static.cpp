@@ -19,6 +19,8 @@ QuasiStaticSolver::QuasiStaticSolver(const Scene& scene, Model& model, int threa
     : Solver(scene, model, threads), equilibrium_(model, *motion_), stiffness_(model.grid),
       du_(model.grid.layout()), du_before_(du_), correction_(du_),
       wanted_(du_), before_{internal_, traction_, fixed_, {}, {}}, still_(du_),
+      rate_dependent_(std::any_of(model.materials.begin(), model.materials.end(),
+                                  [](const Material& m) { return m.rate_dependent(); })),
       allowed_(std::numeric_limits<double>::infinity()) {}
 
 template <class F>
@@ -47,6 +49,12 @@ bool QuasiStaticSolver::step(double dt) {
     });
     time_ += dt;
     const Outcome outcome = iterate({time_, dt});
+    const double share = outcome == Outcome::balanced ? even_share(ratio) : 1.0;
+    if (share < 0.4) {
+        time_ -= dt;
+        reason_ = "the soil creeps ever faster";
+        return shorten(std::max(share, 0.1), dt);
+    }
     if (outcome != Outcome::balanced) {
         time_ -= dt;
         return shorten(outcome == Outcome::strained
@@ -59,12 +67,27 @@ bool QuasiStaticSolver::step(double dt) {
     account(dt);
     du_before_ = du_;
     dt_before_ = dt;
+    way_before_ += way_;
     const double wanted_share = settings_.strain_step / largest_strain_;
     // An event that cut a step short says nothing about the next one.
-    allowed_ = std::min(dt * std::max(wanted_share, 0.5), std::max(growth * dt, usual_));
+    allowed_ = std::min(dt * std::min(std::max(wanted_share, 0.5), share), std::max(growth * dt, usual_));
     usual_ = 0.0;
     ++steps_;
     return true;
+}
+
+// The length, over that of the step, with which the motion goes on evenly enough for a soil that heeds the rate: the
+// step before it, gone on with, misses this one by an amount that falls with the square of the length.
+double QuasiStaticSolver::even_share(double ratio) {
+    if (!rate_dependent_) return HUGE_VAL;
+    double missed = 0.0, way = 0.0;
+    each_component([&](Eigen::Index, int k, std::size_t n) {
+        missed = std::max(missed, std::abs(du_.c[k][n] - ratio * du_before_.c[k][n]));
+        way = std::max(way, std::abs(du_.c[k][n]));
+    });
+    way_ = way;
+    if (dt_before_ == 0.0 || missed == 0.0) return HUGE_VAL;
+    return 0.9 * std::sqrt(settings_.uneven * (way_before_ + way) / (0.5 * missed));
 }
 
 bool QuasiStaticSolver::shorten(double fraction, double dt) {
@@ -91,6 +114,7 @@ void QuasiStaticSolver::restore() {
 void QuasiStaticSolver::undo(double fraction) {
     restore();
     time_ -= dt_before_;
+    way_before_ -= way_;
     usual_ = dt_before_;
     allowed_ = fraction * dt_before_;
     --steps_;

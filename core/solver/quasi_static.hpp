@@ -30,6 +30,7 @@ class QuasiStaticSolver final : public Solver {
     void correct();
     bool shorten(double fraction, double dt);
     void restore(); // the start of the step
+    double even_share(double ratio);
     void account(double dt);
     double inertia(int, std::size_t) const override { return 0.0; }
     template <class F>
@@ -49,10 +50,12 @@ class QuasiStaticSolver final : public Solver {
     } before_;
     const VectorField still_; // what loads see as velocity: without inertia there are no waves to absorb
     std::unique_ptr<Motion::State> start_;
+    const bool rate_dependent_; // a soil's answer depends on the rate
     double allowed_, dt_before_ = 0.0, least_ = 0.0, largest_strain_ = 0.0;
-    double usual_ = 0.0;    // length that was allowed before an event cut a step short, s
-    double fraction_ = 0.5; // of the step, after one that failed
-    std::string reason_;    // why it failed
+    double way_ = 0.0, way_before_ = 0.0; // of the fastest node in the step, m; of all steps before it
+    double usual_ = 0.0;                  // length that was allowed before an event cut a step short, s
+    double fraction_ = 0.5;               // of the step, after one that failed
+    std::string reason_;                  // why it failed
     int64_t iterations_ = 0;
     std::vector<double> residuals_;
 };

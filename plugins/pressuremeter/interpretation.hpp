@@ -170,7 +170,7 @@ class Interpretation {
     void menard_limit(const Rows& points, double volume) const {
         const char* name = "menard_limit_pressure";
         const char* source = "ISO 22476-4 (2012), D.4: the pressure at twice the volume of the cavity";
-        const double doubled = pressure_at(loading_, 2.0 * volume, [](const Row& r) { return r.volume; });
+        const double doubled = pressure_at(rows_, 2.0 * volume, [](const Row& r) { return r.volume; });
         if (std::isfinite(doubled)) return report_.result(name, "Pa", doubled, source, "measured");
         const Rows& curve = points.size() >= 4 ? points : loading_;
         if (curve.size() < 4 || curve.back().volume < 1.2 * volume)

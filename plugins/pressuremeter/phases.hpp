@@ -31,6 +31,13 @@ inline double wall_speed(const std::optional<double>& rate, const std::optional<
 
 constexpr const char* rate_doc = "Velocity of the wall.";
 constexpr const char* strain_rate_doc = "Rate of the cavity strain.";
+constexpr const char* pressure_rate_doc = "Rate of the true pressure, where that is what is driven.";
+
+inline void check_speed(const std::optional<double>& rate, const std::optional<double>& strain_rate,
+                        const std::optional<double>& pressure_rate) {
+    if (rate.has_value() + strain_rate.has_value() + pressure_rate.has_value() > 1)
+        throw std::runtime_error("give one of rate, strain_rate and pressure_rate");
+}
 
 // expand and unload.
 template <int Direction>
@@ -44,19 +51,14 @@ struct Move {
     static constexpr std::array parameters{
         gault::parameter<&Move::rate>("rate", "", "m/s", rate_doc).above(0),
         gault::parameter<&Move::strain_rate>("strain_rate", "", "1/s", strain_rate_doc).above(0),
-        gault::parameter<&Move::pressure_rate>("pressure_rate", "", "Pa/s",
-                                               "Rate of the true pressure, where that is what is driven.")
-            .above(0),
+        gault::parameter<&Move::pressure_rate>("pressure_rate", "", "Pa/s", pressure_rate_doc).above(0),
         gault::parameter<&Move::until>("until", "", "1", "What ends it; of several, the first one reached.")
             .count(1, 0)};
 
     bool needs_speed() const { return !rate && !strain_rate && !pressure_rate; }
     bool drives_pressure() const { return pressure_rate.has_value(); }
     bool drives_wall() const { return !pressure_rate; }
-    void check() const {
-        if (rate.has_value() + strain_rate.has_value() + pressure_rate.has_value() > 1)
-            throw std::runtime_error("give one of rate, strain_rate and pressure_rate");
-    }
+    void check() const { check_speed(rate, strain_rate, pressure_rate); }
     std::optional<Part> part(int number, const Setting& setting, const Origin& phase, const Origin&) const {
         if (number > 0) return std::nullopt;
         const double speed = pressure_rate ? *pressure_rate : wall_speed(rate, strain_rate, setting);
@@ -71,7 +73,7 @@ struct Loop {
     static constexpr const char* name = "loop";
     static constexpr const char* doc = "Unload-reload loops, back to the strain or pressure they began at.";
 
-    std::optional<double> strain_amplitude, pressure_amplitude, rate, strain_rate;
+    std::optional<double> strain_amplitude, pressure_amplitude, rate, strain_rate, pressure_rate;
     int count;
     static constexpr std::array parameters{
         gault::parameter<&Loop::strain_amplitude>("strain_amplitude", "", "1",
@@ -82,28 +84,30 @@ struct Loop {
             .above(0),
         gault::parameter<&Loop::rate>("rate", "", "m/s", rate_doc).above(0),
         gault::parameter<&Loop::strain_rate>("strain_rate", "", "1/s", strain_rate_doc).above(0),
+        gault::parameter<&Loop::pressure_rate>("pressure_rate", "", "Pa/s", pressure_rate_doc).above(0),
         gault::parameter<&Loop::count>("count", "", "1", "How many, one after the other.")
             .at_least(1)
             .fallback(1)};
 
-    bool needs_speed() const { return !rate && !strain_rate; }
-    bool drives_pressure() const { return false; }
-    bool drives_wall() const { return true; }
+    bool needs_speed() const { return !rate && !strain_rate && !pressure_rate; }
+    bool drives_pressure() const { return pressure_rate.has_value(); }
+    bool drives_wall() const { return !pressure_rate; }
     void check() const {
-        if (rate && strain_rate) throw std::runtime_error("give one of rate and strain_rate");
+        check_speed(rate, strain_rate, pressure_rate);
         if (strain_amplitude.has_value() == pressure_amplitude.has_value())
             throw std::runtime_error("give one of strain_amplitude and pressure_amplitude");
     }
     std::optional<Part> part(int number, const Setting& setting, const Origin& phase, const Origin&) const {
         if (number >= 2 * count) return std::nullopt;
         const double direction = number % 2 == 0 ? -1.0 : 1.0, fall = direction < 0.0 ? 1.0 : 0.0;
-        const Event end =
-            strain_amplitude
-                ? strain_event(phase.state.strain - fall * *strain_amplitude, direction, sent)
-                : pressure_event(phase.state.pressure - fall * *pressure_amplitude, direction, phase);
-        Part part{Part::Drive::wall, direction * wall_speed(rate, strain_rate, setting), {end}};
+        Event end = strain_amplitude
+                        ? strain_event(phase.state.strain - fall * *strain_amplitude, direction,
+                                       pressure_rate ? followed : sent)
+                        : pressure_event(phase.state.pressure - fall * *pressure_amplitude, direction, phase);
+        end.ends_phase = false;
+        const double speed = pressure_rate ? *pressure_rate : wall_speed(rate, strain_rate, setting);
+        Part part{pressure_rate ? Part::Drive::pressure : Part::Drive::wall, direction * speed, {end}};
         part.loop = number / 2 + 1;
-        part.ends[0].ends_phase = false;
         return part;
     }
 };

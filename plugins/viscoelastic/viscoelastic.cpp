@@ -34,6 +34,8 @@ struct Viscoelastic {
         "Findley, W. N., Lai, J. S. and Onaran, K. (1976), Creep and Relaxation of Nonlinear Viscoelastic "
         "Materials, chapter 5";
 
+    static constexpr bool rate_dependent = true;
+
     double young_modulus, poisson_ratio;
     std::optional<double> viscosity, delayed_shear_modulus, delayed_viscosity;
 

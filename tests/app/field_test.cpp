@@ -6,7 +6,7 @@ namespace {
 
 class FiniteProbe : public App {
   protected:
-    // The pressure where the gauge has moved by a tenth of the radius.
+    // The pressure at the end, where the gauge has moved by a tenth of the radius.
     double pressure(Words changes) const {
         Words words{"--force"};
         for (const std::string& change : changes) {
@@ -14,7 +14,8 @@ class FiniteProbe : public App {
             words.push_back(change);
         }
         run("configs/field/finite_probe.yaml", words);
-        return at(history(results, "displacement_m"), history(results, "true_pressure_Pa"), 2e-3);
+        EXPECT_NEAR(history(results, "cavity_strain").back(), 0.1, 1e-8);
+        return history(results, "true_pressure_Pa").back();
     }
 };
 
@@ -23,22 +24,18 @@ TEST_F(FiniteProbe, WithoutAnEndIsTheInfiniteCylinder) {
     EXPECT_NEAR(
         pressure({"geometry.annulus.height=120 mm", "geometry.parts={membrane: {of: inner, y: [0, 120 mm]}}",
                   "boundaries.1={on: top, type: roller}", "boundaries.3={on: top, type: roller}",
-                  "grid.cells=[40, 2]", "grid.grading.y=1",
-                  "program.pressure=[[0 s, 90 kPa], [1 s, 1450 kPa]]"}),
+                  "grid.cells=[40, 2]", "grid.grading.y=1"}),
         1348.39e3, 0.5e3);
 }
 
 TEST_F(FiniteProbe, TakesMorePressureTheShorterItIs) {
     const Words coarse = {"grid.cells=[20, 24]", "grid.grading.y=1.09050773267"};
     Words longer = coarse;
-    for (const char* change :
-         {"geometry.annulus.height=1400 mm", "geometry.parts.membrane.y.1=200 mm",
-          "geometry.parts.casing.y=[200 mm, 1400 mm]", "program.pressure=[[0 s, 90 kPa], [1 s, 1800 kPa]]"})
+    for (const char* change : {"geometry.annulus.height=1400 mm", "geometry.parts.membrane.y.1=200 mm",
+                               "geometry.parts.casing.y=[200 mm, 1400 mm]"})
         longer.emplace_back(change);
-    Words shorter = coarse;
-    shorter.emplace_back("program.pressure=[[0 s, 90 kPa], [1 s, 2100 kPa]]");
     const double ten = pressure(longer);
-    const double six = pressure(shorter);
+    const double six = pressure(coarse);
     EXPECT_NEAR(ten, 1700e3, 20e3);
     EXPECT_NEAR(six, 1986e3, 20e3);
 }

@@ -268,5 +268,42 @@ TEST(Clay, AMenardTestMeasuresItsLimitPressure) {
     EXPECT_NEAR(derived["menard_modulus"]["value"].get<double>(), 2.66 * 5e6, 0.02 * 2.66 * 5e6);
 }
 
+// ---- a soil that creeps: what its wall moves while a pressure is held ----
+
+// Without bound, a cavity in a Burgers soil opens under dp by a J(t) dp / 2, whatever its bulk modulus, J the creep
+// compliance; with b0 / a0 = 100 under constant pressure outside by a ten-thousandth more.
+TEST(Creep, MovesTheWallBetweenReadingsAsTheCompliance) {
+    HardScene s("field/creep",
+                {{"program.phases.0.pressure_steps", "{increment: 10 Pa, rise: 1 s, count: 3}"},
+                 {"program.phases.1", "{hold: {duration: 10 min, readings: [1 min, 5 min]}}"},
+                 {"program.phases.2", "{hold: {duration: 0 s}}"},
+                 {"solver", "{tolerance: 1e-10}"},
+                 {"initial.stress.isotropic", "1 kPa"},
+                 {"boundaries.1.value", "1 kPa"},
+                 {"grid", "{cells: 100}"}});
+    s.run();
+    const double G = 15e6 / 2.9, eta = 5e9, delayed = 20e6, delay = 400e6 / delayed, increment = 10.0,
+                 rise = 1.0;
+    const auto compliance = [&](double since) { // its mean over the rise, which ended `since` ago
+        return 1.0 / G + (since + 0.5 * rise) / eta +
+               (1.0 - std::exp(-since / delay) * delay / rise * -std::expm1(-rise / delay)) / delayed;
+    };
+    const auto time = s.column("time"), strain = s.column("cavity_strain"), held = s.column("held");
+    double worst = 0.0;
+    int readings = 0;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+        if (held[i] == 0.0) continue;
+        double exact = 0.0;
+        for (int step = 0; step < 3; ++step)
+            if (const double since = time[i] - 61.0 * step - 1.0; since > -1e-6)
+                exact += 0.5 * increment * compliance(since);
+        worst = std::max(worst, std::abs(strain[i] / exact - 1.0));
+        ++readings;
+    }
+    std::printf("cavity strain at %d readings: largest error %.2e\n", readings, worst);
+    EXPECT_GE(readings, 12);
+    EXPECT_LT(worst, 2e-3); // a step may miss the motion before it by 1e-3 of the way
+}
+
 } // namespace
 } // namespace gault::core::test

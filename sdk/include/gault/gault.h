@@ -224,6 +224,8 @@ typedef struct gault_points { /* [grows] */
 enum {
     GAULT_HAS_TANGENT = 1u << 0,   /* fills `tangent`; otherwise an implicit solver differentiates numerically */
     GAULT_ONE_AT_A_TIME = 1u << 1, /* legacy code with global state: the host never calls it concurrently */
+    GAULT_RATE_DEPENDENT = 1u << 3, /* answers differently at another rate: without inertia the host keeps steps short
+                                       enough to follow how strain goes on in time */
     GAULT_FINITE_STRAIN = 1u << 2  /* wants F; stress_old and states come unrotated, and it returns Cauchy stress */
 };
 

@@ -13,6 +13,7 @@
 //       static constexpr bool has_tangent = true;      // update() sets the tangent when p.wants_tangent()
 //       static constexpr bool finite_strain = true;    // wants p.F_old(), p.F_new()
 //       static constexpr bool one_at_a_time = true;    // never called concurrently
+//       static constexpr bool rate_dependent = true;   // answers differently at another rate: creeps
 //
 //       void start(gault::Point& p) const; // before the first step: p.stress is the initial stress
 //       const std::vector<gault_state>& instance_states() const; // replaces `states`: they depend on parameters
@@ -194,6 +195,12 @@ template <class T>
 struct single_flag<T, std::enable_if_t<T::one_at_a_time>>
     : std::integral_constant<uint32_t, GAULT_ONE_AT_A_TIME> {};
 
+template <class T, class = void>
+struct rate_flag : std::integral_constant<uint32_t, 0> {};
+template <class T>
+struct rate_flag<T, std::enable_if_t<T::rate_dependent>>
+    : std::integral_constant<uint32_t, GAULT_RATE_DEPENDENT> {};
+
 template <class T>
 uint32_t state_components(const T& model) {
     uint32_t n = 0;
@@ -269,7 +276,7 @@ template <class T>
 constexpr gault_material_api material_api() {
     gault_material_api a{};
     a.size = sizeof a;
-    a.flags = tangent_flag<T>::value | finite_flag<T>::value | single_flag<T>::value;
+    a.flags = tangent_flag<T>::value | finite_flag<T>::value | single_flag<T>::value | rate_flag<T>::value;
     if constexpr (has_states<T>::value) {
         a.states = T::states.data();
         a.state_count = static_cast<uint32_t>(T::states.size());
