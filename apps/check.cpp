@@ -10,9 +10,10 @@ namespace {
 
 int check(const SceneArguments& arguments) {
     const LoadedScene scene(arguments);
+    const std::vector<std::string> taken = core::check_scene(*scene);
     for (const core::Choice& choice : scene.choices())
         fmt::print("{}: {} ({})\n", choice.key, choice.value, choice.reason);
-    for (const std::string& line : core::check_scene(*scene))
+    for (const std::string& line : taken)
         fmt::print("{}\n", line);
     fmt::print("{}: this scene can run\n", arguments.file);
     return 0;

@@ -70,8 +70,9 @@ class Run {
     void fail(const std::string& message); // what was written stays, with the reason
     std::string advice();
     std::string kinetic_caution() const; // empty: none
-    std::string yield_caution();         // empty: none
+    std::string yield_caution() const;   // empty: none
     bool elastic_behind() const;
+    void watch_yield();
     void derive();
     void report();
     void report_reference() const;
@@ -86,6 +87,7 @@ class Run {
     Verification verification_;
     ResultWriter writer_;
     std::optional<Elasticity> elasticity_; // where a boundary stands for elastic soil
+    double yielding_ = 0.0;                // m; 0: the soil at that boundary is elastic
     int64_t frame_step_ = -1, frames_ = 0;
     double stepping_ = 0.0; // s
     nlohmann::json reference_, derived_;
@@ -218,16 +220,22 @@ bool Run::elastic_behind() const {
            });
 }
 
-std::string Run::yield_caution() {
-    if (!elasticity_) return "";
-    const double outer = scene_.geometry.upper[0];
-    const Axis& axis = simulation_.model().grid.axis(0);
-    if (elasticity_->largest_inelastic_radius(solver().motion()) < outer - axis.length()[axis.cells() - 1])
-        return "";
+std::string Run::yield_caution() const {
+    if (yielding_ == 0.0) return "";
     return fmt::format(
         "caution: the soil yields up to the boundary at {:.4g} m, which stands for elastic soil "
         "beyond; about {:.3g} m would have been enough",
-        outer, elasticity_->yielding_radius(solver().motion(), outer));
+        scene_.geometry.upper[0], yielding_);
+}
+
+// Notices soil that yields up to a boundary that stands for elastic soil, and how far it would have.
+void Run::watch_yield() {
+    if (!elasticity_) return;
+    const double outer = scene_.geometry.upper[0];
+    const Axis& axis = simulation_.model().grid.axis(0);
+    const Motion& motion = solver().motion();
+    if (elasticity_->largest_inelastic_radius(motion) >= outer - axis.length()[axis.cells() - 1])
+        yielding_ = std::max(yielding_, elasticity_->yielding_radius(motion, outer));
 }
 
 void Run::report_reference() const {
@@ -289,7 +297,10 @@ void Run::report() {
 
 void Run::step_on(Progress& progress) {
     if (simulation_.step() == Simulation::Moved::yes) {
-        if (simulation_.row_due()) writer_.row(simulation_.row());
+        if (simulation_.row_due()) {
+            writer_.row(simulation_.row());
+            watch_yield();
+        }
         frames_due(false);
     }
     if (!progress.due(solver().steps())) return;

@@ -73,8 +73,8 @@ TEST_F(Plan, SaysWhatKeepsASceneFromRadialSymmetry) {
     const std::map<std::string, std::string> obstacles{
         {"gravity=9.81 m/s^2", "gravity acts along the axis"},
         {"boundaries.1={on: bottom, type: roller}", "'top' may move along the axis"},
-        {"boundaries.1={on: [top, bottom], type: fixity}",
-         "fixity on 'bottom' may do more than hold it along the axis"},
+        {"boundaries.1={on: [top, bottom], type: pressure}",
+         "pressure on 'bottom' may do more than hold it along the axis"},
         {"geometry.parts={low: {of: inner, y: [0, 200 mm]}}", "the part 'low' ends along the height"},
         {"program.gauge=0 mm", "the program's gauge is at a height"},
         {"regions=[{name: layer, y: [0, 100 mm], overrides: {cohesion: 2 kPa}}]",
