@@ -48,6 +48,18 @@ std::string derived_text(const nlohmann::json& result) {
                        note.empty() ? "" : "; ", note);
 }
 
+// What a user should know that is no caution.
+std::vector<std::string> notes(Simulation& simulation) {
+    std::vector<std::string> all;
+    for (const Material& material : simulation.model().materials)
+        if (simulation.scene().solver.kind == SolverKind::quasi_static && !material.has_tangent())
+            all.push_back(
+                fmt::format("material {}: its plugin has no tangent, so it is differentiated numerically, "
+                            "with four more updates a point",
+                            material.name()));
+    return all;
+}
+
 // A simulation, and what is written of it.
 class Run {
   public:
@@ -324,6 +336,9 @@ void Run::finish() {
 Outcome Run::go() {
     for (const std::string& caution : cautions(scene_))
         log::warn("{}", caution);
+    if (!options_.quiet)
+        for (const std::string& note : notes(simulation_))
+            log::info("{}", note);
     Interrupts interrupts;
     Progress progress(simulation_.points(), options_.quiet);
     if (elastic_behind()) elasticity_.emplace(simulation_.model(), solver().motion());
@@ -398,6 +413,8 @@ std::vector<std::string> check_scene(const Scene& scene) {
         lines.push_back(fmt::format("{}: {} ({})", choice.key, choice.value, choice.reason));
     for (std::string& caution : cautions(scene))
         lines.push_back(std::move(caution));
+    for (std::string& note : notes(simulation))
+        lines.push_back(std::move(note));
     lines.insert(lines.end(), model.description.begin(), model.description.end());
     for (std::size_t m = 0; m < model.materials.size(); ++m)
         lines.push_back(
