@@ -177,7 +177,9 @@ class Chooser {
         if (solver_ == SolverKind::explicit_dynamics)
             return choose(key, "pointwise", "the explicit solver has no other");
         if (symmetry_ == Symmetry::radial)
-            return choose(key, "pointwise", "a cell along the radius does not lock");
+            return choose(key, "pointwise", "in radial symmetry one point a cell does not lock");
+        if (frame_ == Frame::updated)
+            return choose(key, "pointwise", "the points of a cell change as they move");
         double nu = -1.0;
         for (const MaterialUse& use : scene_.materials)
             try {
@@ -251,6 +253,7 @@ class Chooser {
     const Reread& reread_;
     std::vector<Choice> choices_;
     Symmetry symmetry_ = scene_.symmetry;
+    Frame frame_ = scene_.frame;
     SolverKind solver_ = scene_.solver.kind;
     Basis basis_ = scene_.basis;
     double outer_ = 0.0; // m; 0: not chosen

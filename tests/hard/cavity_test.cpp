@@ -259,8 +259,9 @@ INSTANTIATE_TEST_SUITE_P(Bases, ClayInCells,
 TEST_P(ClayInCells, NeitherLocksNorWavers) {
     const auto& [basis, per_cell] = GetParam();
     HardScene s("field/menard", cylinder({{"model", "{symmetry: axisymmetric, solver: quasi_static}"},
-                                          {"grid", fmt::format("{{cells: [72, 1], basis: {}}}", basis)},
+                                          {"grid", fmt::format("{{cells: [120, 1], basis: {}}}", basis)},
                                           {"points", fmt::format("{{per_cell: {}}}", per_cell)},
+                                          {"solver", "{strain_step: 2 %}"},
                                           program(phases({1, 5, 10, 41.421356237, 100, 300})),
                                           outer_100}));
     EXPECT_EQ(s.scene.volumetric_strain, VolumetricStrain::cell_mean);
