@@ -124,7 +124,7 @@ void read_geometry(const Source& source, Scene& scene) {
 }
 
 void read_model(const Source& source, Scene& scene) {
-    const Fields fields = source.root.section("model", {"symmetry", "frame", "solver"});
+    const Fields fields = source.root.section("model", {"symmetry", "frame", "solver", "volumetric_strain"});
     const std::string& kind = scene.geometry.kind;
     scene.symmetry = choose(scene, fields, "symmetry", {"radial", "axisymmetric", "plane_strain"},
                             kind == "block" ? Symmetry::plane_strain : Symmetry::axisymmetric,
@@ -139,6 +139,13 @@ void read_model(const Source& source, Scene& scene) {
         choose(scene, fields, "frame", {"total", "updated"}, Frame::total, "material stays in place");
     scene.solver.kind = choose(scene, fields, "solver", {"explicit", "quasi_static"},
                                SolverKind::explicit_dynamics, "nothing is assumed about inertia");
+    scene.volumetric_strain = choose(scene, fields, "volumetric_strain", {"pointwise", "cell_mean"},
+                                     VolumetricStrain::pointwise, "the strain of every point is its own");
+    if (scene.volumetric_strain == VolumetricStrain::cell_mean &&
+        scene.solver.kind == SolverKind::explicit_dynamics)
+        throw InputError(fields.require("volumetric_strain").where(),
+                         "model.volumetric_strain: the explicit solver has it pointwise only; take "
+                         "model.solver: quasi_static");
 }
 
 } // namespace gault::core::config

@@ -19,6 +19,7 @@ enum class Basis { linear, quadratic };
 enum class Placement { uniform, gauss };
 enum class StressUpdate { usl, usf };
 enum class SolverKind { explicit_dynamics, quasi_static };
+enum class VolumetricStrain { pointwise, cell_mean };
 
 // An axis-aligned rectangle in (r, y) or (x, y).
 struct Geometry {
@@ -131,6 +132,7 @@ struct Scene {
     Symmetry symmetry;
     bool symmetry_open; // left open: `symmetry` is what is taken for the time being
     Frame frame;
+    VolumetricStrain volumetric_strain;
     Basis basis;
     Geometry geometry;
     // The sides, low x, high x, low y, high y, then the parts. annulus: inner outer bottom top; cylinder: axis

@@ -38,6 +38,7 @@ std::vector<Override> coarse_pilot(const Scene& scene, int factor) {
     }
     const char* across = scene.geometry.kind == "block" ? "x" : "r";
     return {cells(n[0], n[1]),
+            {"model.volumetric_strain", "cell_mean"},
             {"grid.grading", fmt::format("{{{}: {:.17g}, y: {:.17g}}}", across, ratio[0], ratio[1])}};
 }
 
@@ -71,7 +72,8 @@ Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds) {
     }
     try {
         Simulation simulation(*coarse, 1);
-        const Elasticity elasticity(simulation.model(), simulation.solver().motion());
+        const Elasticity elasticity(simulation.model(), simulation.solver().motion(),
+                                    coarse->volumetric_strain);
         simulation.start();
         while (!simulation.done()) {
             simulation.step();

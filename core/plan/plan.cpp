@@ -2,6 +2,7 @@
 #include "core/base/memory.hpp"
 #include "core/plan/pilot.hpp"
 #include "core/scheduler/simulation.hpp"
+#include "core/solver/material.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +14,9 @@
 namespace gault::core {
 namespace {
 
-constexpr double room = 1.25;        // radius of the domain over that of the soil that yields
-constexpr double least_radii = 10.0; // of the domain, in radii of the cavity
+constexpr double room = 1.25;           // radius of the domain over that of the soil that yields
+constexpr double least_radii = 10.0;    // of the domain, in radii of the cavity
+constexpr double incompressible = 0.45; // Poisson's ratio beyond which cells lock
 constexpr double sizing_seconds = 20.0;
 
 uint32_t flags_of(const BoundaryUse& use) {
@@ -46,6 +48,28 @@ std::string uneven(const Scene& scene, int side) {
     return "";
 }
 
+// Of a soil under the initial stress at half the height.
+double poisson_ratio(const Scene& scene, const MaterialUse& use) {
+    const InitialStress& initial = scene.initial_stress;
+    const auto& [low, high] = std::pair(scene.geometry.lower, scene.geometry.upper);
+    const auto axis = [&](std::size_t k) { return Axis(Axis::graded(low[k], high[k], 1, 1.0), 1); };
+    const Grid grid(axis(0), axis(1), scene.symmetry != Symmetry::plane_strain);
+    const double depth = initial.gravity ? initial.depth + 0.5 * (high[1] - low[1]) : 0.0;
+    const double vertical = -initial.vertical + use.density * scene.gravity[1] * depth;
+    const Material material(use);
+    PointColumns point;
+    point.place = {Column(1, 0.5), Column(1, 0.5)};
+    point.measure = Column(1, 1.0);
+    for (std::size_t k = 0; k < 6; ++k)
+        point.stress[k] = Column(1, k == 1 ? vertical : k < 3 ? initial.k0 * vertical : 0.0);
+    point.state.assign(static_cast<std::size_t>(material.state_components()), Column(1));
+    Points points(std::move(point), {0}, {0}, LayoutRequest{1, 1, 1, false});
+    start_material(material, points, view_of(grid));
+    Column p_wave, shear;
+    evaluate_moduli(material, points, view_of(grid), undeformed, 0.0, p_wave, shear);
+    return 0.5 * (p_wave[0] - 2.0 * shear[0]) / (p_wave[0] - shear[0]);
+}
+
 class Chooser {
   public:
     Chooser(const Scene& scene, const Reread& reread) : scene_(scene), reread_(reread) {}
@@ -55,6 +79,7 @@ class Chooser {
         frame();
         outer_radius();
         solver();
+        volumetric_strain();
         basis();
         points();
         grading();
@@ -146,6 +171,27 @@ class Chooser {
         choose("model.solver", "quasi_static", "the load is taken as slow: no inertia, long steps");
     }
 
+    void volumetric_strain() {
+        const char* key = "model.volumetric_strain";
+        if (!open(key)) return;
+        if (solver_ == SolverKind::explicit_dynamics)
+            return choose(key, "pointwise", "the explicit solver has no other");
+        if (symmetry_ == Symmetry::radial)
+            return choose(key, "pointwise", "in radial symmetry one point a cell does not lock");
+        if (frame_ == Frame::updated)
+            return choose(key, "pointwise", "the points of a cell change as they move");
+        double nu = -1.0;
+        for (const MaterialUse& use : scene_.materials)
+            try {
+                nu = std::max(nu, poisson_ratio(scene_, use));
+            } catch (const RunError&) { // a soil that cannot bear the initial stress: the run will say so
+            }
+        if (nu > incompressible)
+            choose(key, "cell_mean", fmt::format("with Poisson's ratio {:.4g} cells would lock", nu));
+        else
+            choose(key, "pointwise", "the soil is compressible: the strain of every point is its own");
+    }
+
     bool radial_without_inertia() const {
         return symmetry_ == Symmetry::radial && solver_ == SolverKind::quasi_static;
     }
@@ -207,6 +253,7 @@ class Chooser {
     const Reread& reread_;
     std::vector<Choice> choices_;
     Symmetry symmetry_ = scene_.symmetry;
+    Frame frame_ = scene_.frame;
     SolverKind solver_ = scene_.solver.kind;
     Basis basis_ = scene_.basis;
     double outer_ = 0.0; // m; 0: not chosen

@@ -11,7 +11,8 @@ namespace gault::core {
 
 class Elasticity {
   public:
-    Elasticity(Model& model, const Motion& motion); // at the start: remembers stress and moduli
+    // At the start: remembers stress and moduli. Where the volume is that of cells, shear alone is judged.
+    Elasticity(Model& model, const Motion& motion, VolumetricStrain volumetric_strain);
 
     // The largest initial distance to the axis, m, of a point whose change of stress is not, to 1 % of it, what
     // the moduli at the start make of its Hencky strain. 0: there is none.
@@ -37,6 +38,7 @@ class Elasticity {
     static double hoop_strain(const Motion& motion, const Place& place);
 
     std::vector<Start> start_;
+    bool shear_only_;
 };
 
 } // namespace gault::core

@@ -341,7 +341,8 @@ Outcome Run::go() {
             log::info("{}", note);
     Interrupts interrupts;
     Progress progress(simulation_.points(), options_.quiet);
-    if (elastic_behind()) elasticity_.emplace(simulation_.model(), solver().motion());
+    if (elastic_behind())
+        elasticity_.emplace(simulation_.model(), solver().motion(), scene_.volumetric_strain);
     try {
         simulation_.start();
         if (simulation_.row_due()) writer_.row(simulation_.row());

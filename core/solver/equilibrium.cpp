@@ -17,6 +17,12 @@ std::size_t largest_batch(const Points& points) {
 
 } // namespace
 
+// Of the points of one material in one cell.
+struct Equilibrium::CellWork {
+    double volume = 0.0, start_volume = 0.0, initial_volume = 0.0; // m^3
+    double slope[9][2] = {}; // of ln(volume) with the displacement of a node, 1/m
+};
+
 // Of one point: the basis on the deformed configuration and the strain of the step.
 struct Equilibrium::PointWork {
     bool live = false;
@@ -25,12 +31,16 @@ struct Equilibrium::PointWork {
     double value[9], slope[9][2]; // N, and its gradient on the deformed configuration, 1/m
     double per_radius = 0.0;      // 1 / r now; 0 in plane strain
     double volume = 0.0;          // now, m^3
+    double start_volume = 0.0;    // at the start of the step
     double hoop = 0.0;            // ln(r / r at the start)
     LogStrain strain{1.0, 0.0, 0.0, 1.0};
     std::array<double, 5> gradient_new; // F: xx xy yx yy zz
+    const CellWork* cell = nullptr;     // where the volume is its cell's
+    double swelling = 0.0;              // ln of stretch, in every direction, that makes it so
 };
 
-Equilibrium::Equilibrium(Model& model, Motion& motion) : model_(model), motion_(motion) {
+Equilibrium::Equilibrium(Model& model, Motion& motion, VolumetricStrain volumetric_strain)
+    : model_(model), motion_(motion), volumetric_strain_(volumetric_strain) {
     std::size_t most = 0;
     for (const Points& points : model.points) {
         workspace_.emplace_back(largest_batch(points));
@@ -74,9 +84,11 @@ bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int 
         w.slope[n][1] = (ny * g[0] - nx * g[1]) / det;
     }
     w.volume = w.site.volume * det;
+    w.start_volume = w.site.volume * det_old;
     w.hoop = w.per_radius = 0.0;
     if (grid.axisymmetric()) {
         w.volume *= radius / w.site.radius;
+        w.start_volume *= w.site.start_radius / w.site.radius;
         w.per_radius = 1.0 / radius;
         w.hoop = std::log(radius / w.site.start_radius);
     }
@@ -85,6 +97,40 @@ bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int 
                       step[2] * F[0] + step[3] * F[2], step[2] * F[1] + step[3] * F[3],
                       F[4] * radius / w.site.start_radius};
     return true;
+}
+
+// Volumes of points are stretched to that of their cell: J of every point becomes V / V0 of the cell, which no
+// length of steps alters.
+void Equilibrium::share_volume(std::vector<PointWork>& work, std::vector<CellWork>& cells,
+                               const Batch& batch) const {
+    const auto jacobian = [](const std::array<double, 5>& f) { return (f[0] * f[3] - f[1] * f[2]) * f[4]; };
+    cells.assign(static_cast<std::size_t>(batch.columns), {});
+    for (PointWork& w : work) {
+        CellWork& cell = cells[static_cast<std::size_t>(w.site.i - batch.first_column)];
+        w.cell = &cell;
+        if (!w.live) continue;
+        cell.volume += w.volume;
+        cell.start_volume += w.start_volume;
+        cell.initial_volume += w.start_volume / jacobian(w.site.deformation);
+        for (int n = 0; n < w.functions; ++n) {
+            cell.slope[n][0] += w.volume * (w.slope[n][0] + w.value[n] * w.per_radius);
+            cell.slope[n][1] += w.volume * w.slope[n][1];
+        }
+    }
+    for (CellWork& cell : cells)
+        for (auto& slope : cell.slope)
+            for (double& s : slope)
+                s = cell.volume > 0.0 ? s / cell.volume : 0.0;
+    for (PointWork& w : work) {
+        const CellWork& cell = *w.cell;
+        w.swelling = std::log(cell.volume / cell.start_volume * (w.start_volume / w.volume)) / 3.0;
+        const double old = std::cbrt(cell.start_volume / cell.initial_volume / jacobian(w.site.deformation));
+        const double now = std::cbrt(cell.volume / cell.initial_volume / jacobian(w.gradient_new));
+        for (int k = 0; k < 5; ++k) {
+            w.site.deformation[k] *= old;
+            w.gradient_new[k] *= now;
+        }
+    }
 }
 
 Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const VectorField& du,
@@ -134,13 +180,18 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
             w = work[i - 1], w.live = false;
         else if (!strain(start, du, m, first + i, w))
             return answer;
+    }
+    std::vector<CellWork> cells;
+    if (volumetric_strain_ == VolumetricStrain::cell_mean) share_volume(work, cells, batch);
+    for (std::size_t i = 0; i < n; ++i) {
+        const PointWork& w = work[i];
         const LogStrain& e = w.strain;
-        for (const double component : {e.xx, e.yy, e.xy, w.hoop})
-            answer.largest_strain = std::max(answer.largest_strain, std::abs(component));
-        view.strain[0][i] = e.xx;
-        view.strain[1][i] = e.yy;
-        view.strain[2][i] = w.hoop;
+        view.strain[0][i] = e.xx + w.swelling;
+        view.strain[1][i] = e.yy + w.swelling;
+        view.strain[2][i] = w.hoop + w.swelling;
         view.strain[3][i] = e.xy;
+        for (int k = 0; k < 4; ++k)
+            answer.largest_strain = std::max(answer.largest_strain, std::abs(view.strain[k][i]));
         const bool rotate = !material.finite_strain();
         const double c = rotate ? e.cosine : 1.0, s = rotate ? e.sine : 0.0;
         const std::size_t slot = first + i;
@@ -188,6 +239,7 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
 // of the stress and the tangent times the strain rate:
 //   d[v (sigma g_a)] = v [(tr l + l_h) sigma g_a + d(sigma) g_a - sigma l^T g_a], likewise for the hoop
 //   stress.
+// Where the volume is the cell's, the strain has a third of d ln(V_cell) - tr l - l_h more in each direction.
 void Equilibrium::assemble(const std::vector<PointWork>& work, const Batch& batch, int material,
                            const double* const* tangent, VectorField& internal, Stiffness& stiffness) const {
     const Points& points = model_.points[material];
@@ -209,19 +261,24 @@ void Equilibrium::assemble(const std::vector<PointWork>& work, const Batch& batc
             double l[5] = {};
             l[q] = 1.0;
             const LogStrain::Rate e = w.strain.rate(l[0], l[1], l[2], l[3]);
+            const double trace = l[0] + l[3] + l[4], own = w.cell ? trace / 3.0 : 0.0;
             double ds[4];
             for (int k = 0; k < 4; ++k)
-                ds[k] = d[k][0] * e.xx + d[k][1] * e.yy + d[k][2] * l[4] + d[k][3] * e.xy;
+                ds[k] =
+                    d[k][0] * (e.xx - own) + d[k][1] * (e.yy - own) + d[k][2] * (l[4] - own) + d[k][3] * e.xy;
             ds[0] -= 2.0 * e.spin * s[3];
             ds[1] += 2.0 * e.spin * s[3];
             ds[3] += e.spin * (s[0] - s[1]);
-            const double trace = l[0] + l[3] + l[4];
             a[0][q] = trace * s[0] + ds[0] - s[0] * l[0] - s[3] * l[1];
             a[1][q] = trace * s[3] + ds[3] - s[0] * l[2] - s[3] * l[3];
             a[2][q] = trace * s[3] + ds[3] - s[3] * l[0] - s[1] * l[1];
             a[3][q] = trace * s[1] + ds[1] - s[3] * l[2] - s[1] * l[3];
             a[4][q] = trace * s[2] + ds[2] - s[2] * l[4];
         }
+        double bulk[4]; // d(sigma) / d ln(V_cell)
+        for (int k = 0; k < 4; ++k)
+            bulk[k] = w.volume * (d[k][0] + d[k][1] + d[k][2]) / 3.0;
+        const double of_cell[5] = {bulk[0], bulk[3], bulk[3], bulk[1], bulk[2]};
         const int width = grid.degree(0) + 1;
         const auto node = [&](int n) {
             return std::array<int, 2>{w.site.i + n % width, w.site.j + n / width};
@@ -238,6 +295,9 @@ void Equilibrium::assemble(const std::vector<PointWork>& work, const Batch& batc
             for (int k = 0; k < 5; ++k) {
                 px[k] = w.volume * (a[k][0] * gx + a[k][1] * gy + a[k][4] * hoop);
                 py[k] = w.volume * (a[k][2] * gx + a[k][3] * gy);
+                if (!w.cell) continue;
+                px[k] += of_cell[k] * w.cell->slope[m][0];
+                py[k] += of_cell[k] * w.cell->slope[m][1];
             }
             for (int n = 0; n < w.functions; ++n) {
                 const double x = w.slope[n][0], y = w.slope[n][1], h = w.value[n] * w.per_radius;

@@ -12,7 +12,8 @@ namespace gault::core {
 
 class Equilibrium {
   public:
-    Equilibrium(Model& model, Motion& motion);
+    Equilibrium(Model& model, Motion& motion,
+                VolumetricStrain volumetric_strain = VolumetricStrain::pointwise);
 
     struct Answer {
         bool found = false;
@@ -29,15 +30,18 @@ class Equilibrium {
 
   private:
     struct PointWork;
+    struct CellWork;
     Answer evaluate(const Motion::State& start, const VectorField& du, const Moment& moment, double limit,
                     int material, const Batch& batch, VectorField& internal, Stiffness& stiffness);
     bool strain(const Motion::State& start, const VectorField& du, int material, std::size_t slot,
                 PointWork& work) const;
+    void share_volume(std::vector<PointWork>& work, std::vector<CellWork>& cells, const Batch& batch) const;
     void assemble(const std::vector<PointWork>& work, const Batch& batch, int material,
                   const double* const* tangent, VectorField& internal, Stiffness& stiffness) const;
 
     Model& model_;
     Motion& motion_;
+    VolumetricStrain volumetric_strain_;
     std::vector<Workspace> workspace_; // one a material
     std::vector<Column> tangent_;      // of a batch, 6 x 6
     int64_t updates_ = 0;

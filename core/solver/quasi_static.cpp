@@ -16,8 +16,8 @@ constexpr double growth = 10.0;   // of a step over the one before
 } // namespace
 
 QuasiStaticSolver::QuasiStaticSolver(const Scene& scene, Model& model, int threads)
-    : Solver(scene, model, threads), equilibrium_(model, *motion_), stiffness_(model.grid),
-      du_(model.grid.layout()), du_before_(du_), correction_(du_),
+    : Solver(scene, model, threads), equilibrium_(model, *motion_, scene.volumetric_strain),
+      stiffness_(model.grid), du_(model.grid.layout()), du_before_(du_), correction_(du_),
       wanted_(du_), before_{internal_, traction_, fixed_, {}, {}}, still_(du_),
       rate_dependent_(std::any_of(model.materials.begin(), model.materials.end(),
                                   [](const Material& m) { return m.rate_dependent(); })),

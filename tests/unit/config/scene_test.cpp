@@ -325,6 +325,7 @@ TEST(Scene, TakesTheLeastThatIsEnoughAndSaysWhy) {
                         "model.symmetry: axisymmetric (the geometry is a cylinder)",
                         "model.frame: total (material stays in place)",
                         "model.solver: explicit (nothing is assumed about inertia)",
+                        "model.volumetric_strain: pointwise (the strain of every point is its own)",
                         "grid.grading.r: 1 (equal cells)", "grid.grading.y: 1 (equal cells)",
                         "grid.basis: quadratic (smooth gradients, so no noise where points cross cells)",
                         "points.per_cell: 16 (four a direction)",

@@ -15,6 +15,7 @@ struct Use {
     Frame frame;
     Basis basis;
     const char* name;
+    VolumetricStrain volumetric_strain = VolumetricStrain::pointwise;
 };
 
 Shape shape(const Use& use) {
@@ -31,7 +32,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Use{Symmetry::axisymmetric, Frame::total, Basis::linear, "RingTotalLinear"},
                     Use{Symmetry::axisymmetric, Frame::updated, Basis::quadratic, "RingUpdated"},
                     Use{Symmetry::radial, Frame::total, Basis::quadratic, "RadialTotal"},
-                    Use{Symmetry::radial, Frame::updated, Basis::linear, "RadialUpdatedLinear"}),
+                    Use{Symmetry::radial, Frame::updated, Basis::linear, "RadialUpdatedLinear"},
+                    Use{Symmetry::plane_strain, Frame::total, Basis::linear, "PlaneTotalCells",
+                        VolumetricStrain::cell_mean},
+                    Use{Symmetry::axisymmetric, Frame::total, Basis::quadratic, "RingTotalCells",
+                        VolumetricStrain::cell_mean},
+                    Use{Symmetry::axisymmetric, Frame::updated, Basis::linear, "RingUpdatedCells",
+                        VolumetricStrain::cell_mean}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 // An initial stress that is not isotropic, so that its rotation matters.
@@ -63,7 +70,7 @@ TEST_P(Trial, StiffnessIsTheDerivativeOfTheForces) {
     Body body(s.scene);
     prestress(body);
     Boundaries boundaries(s.scene, *body.motion, body.model.behind(s.scene));
-    Equilibrium equilibrium(body.model, *body.motion);
+    Equilibrium equilibrium(body.model, *body.motion, GetParam().volumetric_strain);
     Stiffness stiffness(body.model.grid), ignored(body.model.grid);
     const NodeLayout& layout = body.layout();
     const VectorField still(layout);
@@ -131,6 +138,70 @@ TEST(Equilibrium, TurnsTheStressWithABodyThatTurns) {
     expect_turned_stress(Frame::updated, Basis::linear);
 }
 
+std::vector<double> stresses(Shape shape, VolumetricStrain volumetric_strain,
+                             const std::vector<std::array<double, 4>>& steps) {
+    TestMaterial soil(1e3 * shear, shear);
+    SmallScene s{shape};
+    s.add(soil, density);
+    Body body(s.scene);
+    Equilibrium equilibrium(body.model, *body.motion, volumetric_strain);
+    Stiffness stiffness(body.model.grid);
+    VectorField internal(body.layout()), reached(body.layout());
+    for (const auto& f : steps) { // displacements since the beginning
+        const VectorField wanted = body.field([&](double x, double y) {
+            return std::array<double, 2>{f[0] * x + f[1] * y, f[2] * x + f[3] * y * y};
+        });
+        VectorField du(wanted);
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t n = 0; n < du.c[k].size(); ++n)
+                du.c[k][n] -= reached.c[k][n];
+        const auto start = body.motion->save();
+        EXPECT_TRUE(equilibrium.evaluate(*start, du, {1.0, 1.0}, 1.0, internal, stiffness).found);
+        if (&f == &steps.back()) break;
+        body.motion->attempt(*start, du);
+        body.motion->arrive(du, 1.0);
+        reached = wanted;
+    }
+    std::vector<double> all;
+    body.each_point([&](const PointColumns& columns, std::size_t slot, const PointRecord&) {
+        for (int k = 0; k < 4; ++k)
+            all.push_back(columns.stress[k][slot]);
+    });
+    return all;
+}
+
+// The volume of a cell is that of its points where they all have the same.
+TEST(CellMean, LeavesAHomogeneousDeformationAsItIs) {
+    for (const Frame frame : {Frame::total, Frame::updated})
+        for (const Basis basis : {Basis::linear, Basis::quadratic})
+            for (const auto& [symmetry, f] :
+                 {std::pair(Symmetry::plane_strain, std::array{0.1, 0.05, -0.2, 0.0}),
+                  std::pair(Symmetry::axisymmetric, std::array{0.1, 0.0, 0.0, 0.0})}) {
+                const Shape block = shape({symmetry, frame, basis, ""});
+                const auto own = stresses(block, VolumetricStrain::pointwise, {f});
+                const auto mean = stresses(block, VolumetricStrain::cell_mean, {f});
+                for (std::size_t i = 0; i < own.size(); ++i)
+                    ASSERT_NEAR(mean[i], own[i], 1e-12 * 1e3 * shear);
+            }
+}
+
+// One point in another place than its neighbours, by one step or by three on another way: the axes stay, so the
+// stress must be the same.
+TEST(CellMean, DoesNotDependOnTheLengthOfSteps) {
+    const Shape block = shape({Symmetry::axisymmetric, Frame::total, Basis::quadratic, ""});
+    const auto one = stresses(block, VolumetricStrain::cell_mean, {{0.1, 0.0, 0.0, 0.1}});
+    const auto three = stresses(block, VolumetricStrain::cell_mean,
+                                {{0.2, 0.0, 0.0, -0.05}, {0.05, 0.0, 0.0, 0.02}, {0.1, 0.0, 0.0, 0.1}});
+    const auto own = stresses(block, VolumetricStrain::pointwise, {{0.1, 0.0, 0.0, 0.1}});
+    double change = 0.0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        ASSERT_NEAR(three[i], one[i], 1e-12 * 1e3 * shear);
+        change = std::max(change, std::abs(one[i] - own[i]));
+    }
+    EXPECT_GT(change,
+              1.0 * shear); // of an incompressible soil in which volumes of points differ by a percent
+}
+
 // A block between rollers whose top goes down by a third.
 struct Squeezed {
     TestMaterial soil{lame, shear};
@@ -196,14 +267,15 @@ TEST(QuasiStatic, TakesAStepBackToTheBit) {
     }
 }
 
-TEST(QuasiStatic, ConvergesQuadratically) {
-    TestMaterial soil(lame, shear);
+void expect_quadratic_convergence(double first_lame, VolumetricStrain volumetric_strain) {
+    TestMaterial soil(first_lame, shear);
     SmallScene s{shape({Symmetry::axisymmetric, Frame::total, Basis::quadratic, ""})};
     s.add(soil, density);
     s.roll({1, 2});
     s.press({0}, 1.5e6);
     s.scene.solver.strain_step = 1.0;
     s.scene.solver.tolerance = 1e-13;
+    s.scene.volumetric_strain = volumetric_strain;
     Model model = build_model(s.scene);
     QuasiStaticSolver solver(s.scene, model, 1);
     ASSERT_TRUE(solver.step(1.0));
@@ -217,6 +289,12 @@ TEST(QuasiStatic, ConvergesQuadratically) {
             ++pairs;
         }
     EXPECT_GE(pairs, 2);
+}
+
+TEST(QuasiStatic, ConvergesQuadratically) {
+    expect_quadratic_convergence(lame, VolumetricStrain::pointwise);
+    expect_quadratic_convergence(lame, VolumetricStrain::cell_mean);
+    expect_quadratic_convergence(100.0 * lame, VolumetricStrain::cell_mean);
 }
 
 TEST(QuasiStatic, SaysSoWhenNoEquilibriumExists) {
