@@ -11,11 +11,8 @@ namespace {
 
 // The same scene with all that a plan may choose left open.
 std::vector<core::Override> everything_open() {
-    return {{"model.symmetry", "auto"},
-            {"model.frame", "auto"},
-            {"model.solver", "auto"},
-            {"grid", "auto"},
-            {"points", "auto"}};
+    return {{"model.symmetry", "auto"}, {"model.frame", "auto"}, {"model.solver", "auto"},
+            {"grid", "auto"},           {"points", "auto"},      {"solver", "auto"}};
 }
 
 std::string amount(double value, const char* unit) {

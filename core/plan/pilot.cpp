@@ -13,7 +13,7 @@ namespace gault::core {
 namespace {
 
 constexpr int fewest = 4;        // cells along an axis that has so many
-constexpr int radial_cells = 40; // enough for a step to be as long as on a fine grid
+constexpr int radial_cells = 60; // enough for a step to be as long as on a fine grid
 
 Override cells(int x, int y) {
     return {"grid.cells", fmt::format("[{}, {}]", x, y)};
@@ -89,6 +89,9 @@ Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds) {
         pilot.iterations = solver.iterations();
         pilot.end = solver.time();
         pilot.inelastic_radius = elasticity.largest_inelastic_radius(solver.motion());
+    } catch (const InputError& error) {
+        pilot.trouble = error.what();
+        pilot.wrong = std::current_exception();
     } catch (const std::exception& error) { // that a pilot fails is no reason for the run to
         pilot.trouble = fmt::format("a pilot on a coarse grid failed ({})", error.what());
     }

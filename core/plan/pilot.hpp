@@ -2,6 +2,8 @@
 #pragma once
 #include "core/plan/plan.hpp"
 
+#include <exception>
+
 namespace gault::core {
 
 struct Pilot {
@@ -10,6 +12,7 @@ struct Pilot {
     double end = 0.0;              // of the program, s
     double inelastic_radius = 0.0; // the largest, reference, at which the soil is not elastic at the end, m
     std::string trouble;           // why it did not come to its end; empty: it did
+    std::exception_ptr wrong;      // the scene is
 };
 
 Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds);

@@ -139,14 +139,31 @@ class Chooser {
                    "material stays in place: weights once, the wall always on the grid, any strain");
     }
 
+    // Soil without bound is what an open outer radius says.
+    void refuse_other_than_elastic() const {
+        for (const BoundaryUse& use : scene_.boundaries)
+            for (const int surface : use.surfaces)
+                if (scene_.surfaces[static_cast<std::size_t>(surface)].side == high_x &&
+                    !(flags_of(use) & GAULT_BOUNDARY_ELASTIC_BEHIND))
+                    throw InputError(
+                        use.model.parameters.where,
+                        fmt::format("the outer radius is auto, so the soil goes on beyond it: {} cannot "
+                                    "act on 'outer'; leave it out, or write a radius",
+                                    use.model.component->declaration->name));
+    }
+
     // As far as the soil yields in a wide domain, and some more: beyond, an elastic boundary is exact.
     void outer_radius() {
         if (!open("geometry.annulus.outer_radius")) return;
         const double inner = scene_.geometry.lower[0];
+        refuse_other_than_elastic();
         const Pilot pilot = run_pilot(scene_, reread_, sizing_seconds);
+        if (pilot.wrong) std::rethrow_exception(pilot.wrong);
         if (!pilot.trouble.empty())
-            throw InputError(scene_.geometry.where, "geometry.annulus.outer_radius cannot be chosen: " +
-                                                        pilot.trouble + "; write a radius");
+            throw RunError(
+                fmt::format("the outer radius cannot be chosen: {}. If the program is right, write a "
+                            "radius, and a boundary on outer (far_field)",
+                            pilot.trouble));
         outer_ = std::max(room * pilot.inelastic_radius, least_radii * inner);
         choose("geometry.annulus.outer_radius", fmt::format("{:.4g} m", outer_),
                pilot.inelastic_radius > 0.0

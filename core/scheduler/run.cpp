@@ -83,6 +83,7 @@ class Run {
     std::string advice();
     std::string kinetic_caution() const; // empty: none
     std::string yield_caution() const;   // empty: none
+    std::string frame_caution(const std::string& status);
     bool elastic_behind() const;
     void watch_yield();
     void derive();
@@ -184,7 +185,7 @@ void Run::summary(const char* status, const std::string& message) {
     const double wall = seconds_since(start_);
     const Grid& grid = simulation_.model().grid;
     std::vector<std::string> said = cautions(scene_);
-    for (const std::string& caution : {kinetic_caution(), yield_caution()})
+    for (const std::string& caution : {kinetic_caution(), yield_caution(), frame_caution(status)})
         if (!caution.empty()) said.push_back(caution);
     nlohmann::json s = {
         {"status", status},
@@ -238,6 +239,15 @@ std::string Run::yield_caution() const {
         "caution: the soil yields up to the boundary at {:.4g} m, which stands for elastic soil "
         "beyond; about {:.3g} m would have been enough",
         scene_.geometry.upper[0], yielding_);
+}
+
+std::string Run::frame_caution(const std::string& status) {
+    std::vector<double> never;
+    for (const Crossing& frame : simulation_.frames())
+        if (!frame.done()) never.push_back(frame.target());
+    if (status != "done" || never.empty()) return "";
+    return fmt::format("caution: {} never reached {:g}, where frames were asked for", scene_.frames.measure,
+                       fmt::join(never, ", "));
 }
 
 // Notices soil that yields up to a boundary that stands for elastic soil, and how far it would have.
@@ -300,7 +310,7 @@ void Run::report() {
     log::info("kinetic energy at most {:.2g} % of the strain energy once the load has set in; energy error "
               "{:.2g} %",
               100.0 * simulation_.largest_kinetic_ratio(writer_.rows()), 100.0 * solver().energies().error());
-    for (const std::string& caution : {kinetic_caution(), yield_caution()})
+    for (const std::string& caution : {kinetic_caution(), yield_caution(), frame_caution("done")})
         if (!caution.empty()) log::warn("{}", caution);
     report_reference();
     report_derived();
@@ -370,6 +380,22 @@ Outcome Run::go() {
 
 } // namespace
 
+// A side without a boundary that the initial stress pushes against.
+bool is_free_under_stress(const Scene& scene, const SurfaceUse& surface) {
+    const InitialStress& initial = scene.initial_stress;
+    const bool end = surface.side >= low_y;
+    if (surface.cells || surface.name == "axis" || (end && scene.symmetry == Symmetry::radial)) return false;
+    const bool pushed =
+        end ? initial.vertical != 0.0 || (initial.gravity && (surface.side == low_y || initial.depth > 0.0))
+            : initial.k0 * initial.vertical != 0.0 || (initial.gravity && initial.k0 > 0.0);
+    return pushed &&
+           std::none_of(scene.boundaries.begin(), scene.boundaries.end(), [&](const BoundaryUse& use) {
+               return std::any_of(use.surfaces.begin(), use.surfaces.end(), [&](int s) {
+                   return scene.surfaces[static_cast<std::size_t>(s)].side == surface.side;
+               });
+           });
+}
+
 std::vector<std::string> cautions(const Scene& scene) {
     std::vector<std::string> all;
     if (scene.solver.time_step_factor > 1.0)
@@ -379,6 +405,12 @@ std::vector<std::string> cautions(const Scene& scene) {
     if (scene.frame == Frame::updated && scene.basis == Basis::linear)
         all.push_back("caution: with grid.basis linear, forces jump where points cross cells; take "
                       "quadratic, or model.frame total");
+    for (const SurfaceUse& surface : scene.surfaces)
+        if (is_free_under_stress(scene, surface))
+            all.push_back(
+                fmt::format("caution: nothing acts on '{}', against which the initial stress pushes; give it "
+                            "a boundary",
+                            surface.name));
     const bool dynamic = scene.solver.kind == SolverKind::explicit_dynamics;
     if (scene.points_per_cell == 1 && (dynamic || scene.symmetry != Symmetry::radial))
         all.push_back("caution: one point a cell passes no motion whose sign alternates from node to node, "

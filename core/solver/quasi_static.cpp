@@ -97,7 +97,7 @@ bool QuasiStaticSolver::shorten(double fraction, double dt) {
     if (allowed_ < least_)
         throw RunError(
             fmt::format("no equilibrium was found, however short the step{}; the load may exceed what the "
-                        "soil can carry",
+                        "soil can carry: end the program before, or drive the wall instead of the pressure",
                         reason_.empty() ? "" : " (" + reason_ + ")"));
     return false;
 }
@@ -141,14 +141,13 @@ double QuasiStaticSolver::unbalanced() const {
     each_component([&](Eigen::Index, int k, std::size_t n) {
         const double force = internal_.c[k][n] + traction_.c[k][n] + weight(k, n);
         all += internal_.c[k][n] * internal_.c[k][n] + traction_.c[k][n] * traction_.c[k][n];
-        way += wanted_.c[k][n] * wanted_.c[k][n];
+        way += wanted_.c[k][n] * wanted_.c[k][n] + du_.c[k][n] * du_.c[k][n];
         if (fixed_.c[k][n] == 0.0)
             free += force * force;
         else
             left += std::pow(wanted_.c[k][n] - du_.c[k][n], 2);
     });
-    return std::max(all > 0.0 ? std::sqrt(free / all) : 0.0,
-                    way > 0.0 ? std::sqrt(left / way) : std::sqrt(left));
+    return std::max(all > 0.0 ? std::sqrt(free / all) : 0.0, left > 0.0 ? std::sqrt(left / way) : 0.0);
 }
 
 QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
@@ -213,10 +212,15 @@ void QuasiStaticSolver::correct() {
 void QuasiStaticSolver::account(double) {
     each_component([&](Eigen::Index, int k, std::size_t n) {
         const double way = du_.c[k][n], inner = 0.5 * (before_.internal.c[k][n] + internal_.c[k][n]);
-        const double outer = 0.5 * (before_.traction.c[k][n] + traction_.c[k][n]) + weight(k, n);
+        // In balance at both ends of the step: what holds a component is the rest.
+        const auto outer = [&](const FixedField& fixed, const VectorField& loads, const VectorField& forces) {
+            return fixed.c[k][n] == 0.0 ? loads.c[k][n] + weight(k, n) : -forces.c[k][n];
+        };
         energies_.internal -= inner * way;
         energies_.straining -= inner * way;
-        energies_.external += (fixed_.c[k][n] == 0.0 ? outer : -inner) * way;
+        energies_.external +=
+            0.5 * way *
+            (outer(before_.fixed, before_.traction, before_.internal) + outer(fixed_, traction_, internal_));
     });
 }
 

@@ -110,18 +110,27 @@ class Interpretation {
         while (i < rows_.size() && rows_[i].strain <= still)
             ++i;
         if (i == 0 || i == rows_.size())
-            report_.absent(name, "the cavity was not opened from its initial radius", source);
-        else
-            report_.result(
-                name, "Pa", rows_[i - 1].pressure, source,
-                "a cavity that begins in balance with the soil lifts off at its horizontal stress");
+            return report_.absent(name, "the cavity was not opened from its initial radius", source);
+        const Row &before = rows_[i - 1], &after = rows_[i];
+        const double share = std::max(0.0, -before.strain) / (after.strain - before.strain);
+        report_.result(name, "Pa", before.pressure + share * (after.pressure - before.pressure), source,
+                       "where the cavity last leaves its initial radius");
     }
 
-    // The points of the Menard curve: the initial state and the last reading of every held step.
+    // The points of the Menard curve: where the first step began, and the last reading of every held step.
     Rows menard_points() const {
+        const auto stepping = [](const Row& row) { return row.pressure_step > 0; };
+        const auto first = std::find_if(rows_.begin(), rows_.end(), stepping);
         Rows points;
-        for (const Row& row : loading_)
-            if (row.held || (points.empty() && row.pressure_step == 0)) points.push_back(row);
+        if (first == rows_.end() || first == rows_.begin()) return points;
+        points.push_back(*(first - 1));
+        for (auto row = first; row != rows_.end(); ++row) {
+            if (!row->held) continue;
+            if (points.size() > 1 && points.back().phase == row->phase &&
+                points.back().pressure_step == row->pressure_step)
+                points.pop_back();
+            points.push_back(*row);
+        }
         return points;
     }
 
@@ -173,10 +182,9 @@ class Interpretation {
         const double doubled = pressure_at(rows_, 2.0 * volume, [](const Row& r) { return r.volume; });
         if (std::isfinite(doubled)) return report_.result(name, "Pa", doubled, source, "measured");
         const Rows& curve = points.size() >= 4 ? points : loading_;
-        if (curve.size() < 4 || curve.back().volume < 1.2 * volume)
+        if (curve.size() < 4 || curve.back().volume < 1.5 * volume)
             return report_.absent(
-                name, "the cavity's volume grew by less than a fifth: too little to extrapolate from",
-                source);
+                name, "the cavity's volume grew by less than a half: too little to extrapolate from", source);
         std::vector<double> pressure, reciprocal;
         for (std::size_t i = curve.size() - 3; i < curve.size(); ++i) {
             pressure.push_back(curve[i].pressure);
@@ -230,6 +238,9 @@ class Interpretation {
         for (auto r = first; r != rows_.end() && r->loop == number; ++r)
             if (r->strain < turn->strain) turn = &*r;
         const std::string name = "loop_" + std::to_string(number) + "_";
+        if (!(turn->pressure > 0.0))
+            return report_.absent(name + "shear_modulus", "the loop took the pressure below zero",
+                                  "Wroth (1982)");
         const char* source = "Wroth (1982): G_ur = 0.5 dp / d(ln a)";
         const double range = std::log((1.0 + start.strain) / (1.0 + turn->strain));
         report_.result(name + "shear_modulus", "Pa", 0.5 * (start.pressure - turn->pressure) / range, source,
@@ -286,10 +297,10 @@ class Interpretation {
         const double sin_phi = s / (1.0 + (s - 1.0) * critical), sin_psi = s + (s - 1.0) * critical;
         if (!(std::abs(sin_phi) < 1.0 && std::abs(sin_psi) < 1.0))
             return absent("the slope " + std::to_string(s) + " belongs to no angle of friction");
-        const std::string note =
-            fitted() +
-            " (a - a0) / a0; the analysis has no elastic strain in the plastic zone, no cohesion and an "
-            "infinite soil, and returns less than the strength where they matter";
+        const std::string note = fitted() +
+                                 " (a - a0) / a0, against (a - a0) / a; the analysis has no elastic strain "
+                                 "in the plastic zone, no cohesion and an "
+                                 "infinite soil, and returns less than the strength where they matter";
         report_.result("friction_angle", "deg", std::asin(sin_phi) * degrees, source, note);
         report_.result("dilation_angle", "deg", std::asin(sin_psi) * degrees, source, note);
     }

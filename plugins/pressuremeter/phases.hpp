@@ -99,6 +99,8 @@ struct Loop {
     }
     std::optional<Part> part(int number, const Setting& setting, const Origin& phase, const Origin&) const {
         if (number >= 2 * count) return std::nullopt;
+        if (pressure_amplitude && !(*pressure_amplitude < phase.state.pressure))
+            throw std::runtime_error("a loop falls by more than the pressure it begins at");
         const double direction = number % 2 == 0 ? -1.0 : 1.0, fall = direction < 0.0 ? 1.0 : 0.0;
         Event end = strain_amplitude
                         ? strain_event(phase.state.strain - fall * *strain_amplitude, direction,

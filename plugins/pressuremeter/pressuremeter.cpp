@@ -165,7 +165,8 @@ struct Pressuremeter {
         }
         if (one.needs_speed() && !rate && !strain_rate)
             throw gault::Invalid(until.empty() ? "phases" : "rate",
-                                 until.empty() ? where + "give it a rate or a strain_rate, or the program one"
+                                 until.empty() ? where + "give it a rate, a strain_rate or a pressure_rate, "
+                                                         "or the program a rate or strain_rate"
                                                : "one of rate and strain_rate is required");
     }
 
