@@ -162,7 +162,7 @@ class Chooser {
         if (!pilot.trouble.empty())
             throw RunError(
                 fmt::format("the outer radius cannot be chosen: {}. If the program is right, write a "
-                            "radius, and a boundary on outer (far_field)",
+                            "radius, and a boundary on outer that stands for the soil beyond",
                             pilot.trouble));
         outer_ = std::max(room * pilot.inelastic_radius, least_radii * inner);
         choose("geometry.annulus.outer_radius", fmt::format("{:.4g} m", outer_),
