@@ -307,9 +307,10 @@ void Run::report() {
     log::info("{} steps, {} points, {:.3g} s ({:.1f} M point-steps/s)", solver().steps(),
               simulation_.points(), seconds_since(start_),
               stepping_ > 0.0 ? updates / stepping_ * 1e-6 : 0.0);
-    log::info("kinetic energy at most {:.2g} % of the strain energy once the load has set in; energy error "
-              "{:.2g} %",
-              100.0 * simulation_.largest_kinetic_ratio(writer_.rows()), 100.0 * solver().energies().error());
+    if (scene_.solver.kind == SolverKind::explicit_dynamics)
+        log::info("kinetic energy at most {:.2g} % of the strain energy once the load has set in",
+                  100.0 * simulation_.largest_kinetic_ratio(writer_.rows()));
+    log::info("energy error {:.2g} %", 100.0 * solver().energies().error());
     for (const std::string& caution : {kinetic_caution(), yield_caution(), frame_caution("done")})
         if (!caution.empty()) log::warn("{}", caution);
     report_reference();

@@ -148,9 +148,11 @@ TEST_F(CommandLine, QuietRunPrintsNothing) {
 }
 
 TEST_F(CommandLine, EndOfARunSaysHowQuasiStaticItWas) {
-    const Outcome outcome = gault({"run", scene});
+    const Outcome outcome = gault({"run", scene, "--set", "model.solver=explicit"});
     EXPECT_TRUE(has(outcome.err, "kinetic energy at most ")) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "energy error ")) << outcome.err;
+    const Outcome still = gault({"run", scene, "--force", "--set", "model.solver=quasi_static"});
+    EXPECT_FALSE(has(still.err, "kinetic energy")) << still.err;
     EXPECT_TRUE(has(outcome.err, "results in out/scene\n")) << outcome.err;
 }
 

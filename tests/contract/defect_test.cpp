@@ -87,6 +87,7 @@ const Defect defects[] = {
     {"state_of_unknown_shape", "material 'tiny': state 'age' has the shape 9; the host knows 1, 3 and 6"},
     {"state_without_unit", "material 'tiny': state 'age' has no unit; a pure number has the unit \"1\""},
     {"boundary_without_functions", "boundary 'tiny' has neither a constrain nor a load function"},
+    {"boundary_with_unknown_flags", "boundary 'tiny' has the flags 0x20; of a boundary the host knows 0x7"},
     {"null_controls", "boundary 'tiny' has NULL as its 2 controls"},
     {"program_without_advance", "program 'tiny' has NULL as its advance function"},
     {"program_without_signals", "program 'tiny' has neither signals nor instance_signals"},

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <map>
 
@@ -190,6 +191,25 @@ TEST(Sand, TheExplicitAndTheQuasiStaticCurveAgree) {
     std::printf("largest difference of the curves: %.2e\n", largest);
     EXPECT_LT(largest,
               3e-4); // waves of the moving wall, lightened by mass scaling 25: 1 kPa in the first percent
+}
+
+// ---- large elastic strain: Cauchy stress = C : ln V, p / E of a cylinder b0 / a0 = 10 ----
+
+TEST(Elastic, CylinderOpenedToTwiceItsRadius) {
+    const std::map<std::string, std::array<double, 3>> exact{{"0", {0.00970258, 0.0889068, 0.480318}},
+                                                             {"0.3", {0.00750852, 0.0688163, 0.368955}},
+                                                             {"0.4999", {0.00653406, 0.0598812, 0.316400}}};
+    for (const auto& [nu, pressures] : exact) {
+        HardScene s("field/sand",
+                    cylinder({{"materials.sand", "{model: linear_elastic, density: 1600 kg/m^3, "
+                                                 "young_modulus: 1 kPa, poisson_ratio: " +
+                                                     nu + "}"},
+                              {"initial.stress.isotropic", "0 Pa"},
+                              {"boundaries.2", "{on: outer, type: pressure, value: 0 Pa}"},
+                              program(phases({1, 10, 100}))}));
+        s.run();
+        expect_pressures(s, {{0.01, pressures[0]}, {0.1, pressures[1]}, {1.0, pressures[2]}}, 2e-5);
+    }
 }
 
 // ---- clay T, undrained ----
