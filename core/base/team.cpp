@@ -45,7 +45,7 @@ Team::~Team() {
 void Team::run(int n, Call call, void* context) {
     call_ = call;
     context_ = context;
-    piece_ = std::max(1, n / (8 * threads()));
+    piece_ = std::max(1, n / (64 * threads()));
     for (int t = 0; t < threads(); ++t) {
         parts_[t].next.store(static_cast<int>(int64_t{n} * t / threads()), std::memory_order_relaxed);
         parts_[t].end = static_cast<int>(int64_t{n} * (t + 1) / threads());

@@ -125,7 +125,6 @@ void Boundaries::refuse(const Condition& condition, gault_status status, const g
 void Boundaries::constrain(const Motion& motion, double time, double dt, FixedField& fixed,
                            VectorField& value) {
     fixed.release();
-    value.clear();
     const Grid& grid = motion.grid();
     if (grid.axisymmetric() && grid.axis(0).lower() == 0.0) // no motion across the axis
         for (int j = 0; j < grid.layout().ny; ++j)
@@ -188,7 +187,9 @@ void Boundaries::impose(const Condition& condition, int surface, const Held& hel
 
 void Boundaries::load(const Motion& motion, double time, double dt, const VectorField& velocity,
                       VectorField& force, Stiffness* stiffness) {
-    force.clear();
+    for (int side = 0; side < 4; ++side)
+        for (const std::size_t n : surfaces_[side].nodes())
+            force.c[0][n] = force.c[1][n] = 0.0;
     std::fill(load_on_.begin(), load_on_.end(), std::array{0.0, 0.0});
     for (Condition& condition : conditions_)
         for (std::size_t s = 0; s < condition.loaded.size(); ++s) {
@@ -257,16 +258,17 @@ void Boundaries::add_load(int surface, int cell, const std::array<double, 2>& fo
 double Boundaries::share(int surface, std::size_t k, const FixedField& fixed) const {
     const Surface& own = surfaces_[surface];
     const Surface& side = surfaces_[own.side()];
-    std::vector<const Surface*> holders;
-    for (const int other : beside_[surface])
-        if (fixed.held_by(other, normal_axis(own.side()), own.nodes()[k]))
-            holders.push_back(&surfaces_[other]);
-    if (holders.empty()) return 0.0;
+    const std::vector<int>& beside = beside_[surface];
+    const auto holds = [&](int other) {
+        return fixed.held_by(other, normal_axis(own.side()), own.nodes()[k]);
+    };
+    if (std::none_of(beside.begin(), beside.end(), holds)) return 0.0;
     if (surface < 4) return 1.0;
     const int node = own.cells()[0] + static_cast<int>(k); // and the last cell where its function is not zero
     double all = 0.0, here = 0.0;
     for (int cell = std::max(node - 2, 0); cell <= std::min(node, side.cells()[1] - 1); ++cell) {
-        if (std::none_of(holders.begin(), holders.end(), [&](const Surface* s) { return s->has_cell(cell); }))
+        if (std::none_of(beside.begin(), beside.end(),
+                         [&](int other) { return holds(other) && surfaces_[other].has_cell(cell); }))
             continue;
         const double extent = side.extent(cell, node - cell);
         all += extent;

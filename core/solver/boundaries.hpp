@@ -27,9 +27,9 @@ class Boundaries {
     Boundaries(const Scene& scene, const Motion& motion,
                const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
 
-    // Prescribed components at `time`. Throws InputError when two conditions contradict each other.
+    // Prescribed components at `time`; `value` has a meaning where they are. Throws InputError when two conditions contradict each other.
     void constrain(const Motion& motion, double time, double dt, FixedField& fixed, VectorField& value);
-    // Nodal forces from surface loads at the present positions.
+    // Nodal forces from surface loads at the present positions; only nodes of the sides are written.
     // `stiffness`, if any, += -d(force)/d(displacement).
     void load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force,
               Stiffness* stiffness = nullptr);

@@ -16,7 +16,7 @@ double largest(const Column& column) {
 
 ExplicitSolver::ExplicitSolver(const Scene& scene, Model& model, int threads)
     : Solver(scene, model, threads), internal_initial_(internal_), internal_before_(internal_),
-      traction_before_(internal_), acceleration_(model.grid.layout()), velocity_before_(acceleration_),
+      traction_before_(traction_), acceleration_(model.grid.layout()), velocity_before_(acceleration_),
       damping_(acceleration_), work_of_row_(static_cast<std::size_t>(model.grid.layout().ny)) {}
 
 double ExplicitSolver::allowed_step() {
@@ -65,24 +65,24 @@ void ExplicitSolver::refresh_limit(Moduli moduli) {
 }
 
 void ExplicitSolver::integrate(double dt, const VectorField& internal) {
-    const Column& mass = motion_->mass();
-    const double alpha = settings_.damping;
+    const double alpha = settings_.damping, scaling = settings_.mass_scaling;
     motion_->each_row([&](int, std::size_t begin, std::size_t end) {
-        for (int k = 0; k < 2; ++k)
+        const double* mass = motion_->mass().data();
+        for (int k = 0; k < 2; ++k) {
+            const double *inner = internal.c[k].data(), *outer = traction_.c[k].data(),
+                         *before = velocity_before_.c[k].data(), *value = value_.c[k].data(),
+                         *fixed = fixed_.c[k].data(), gravity = gravity_[k];
+            double *acceleration = acceleration_.c[k].data(), *damping = damping_.c[k].data();
             for (std::size_t n = begin; n < end; ++n) {
-                if (mass[n] <= 0.0) continue;
-                const double force = internal.c[k][n] + traction_.c[k][n] + weight(k, n);
-                const double v = velocity_before_.c[k][n];
-                if (fixed_.c[k][n] != 0.0) {
-                    acceleration_.c[k][n] = (value_.c[k][n] - v) / dt;
-                    damping_.c[k][n] = 0.0;
-                } else { // Cundall's local damping opposes the velocity by a share of the force
-                    damping_.c[k][n] = v > 0.0   ? -alpha * std::abs(force)
-                                       : v < 0.0 ? alpha * std::abs(force)
-                                                 : 0.0;
-                    acceleration_.c[k][n] = (force + damping_.c[k][n]) / (mass[n] * settings_.mass_scaling);
-                }
+                const double m = mass[n], v = before[n], force = inner[n] + outer[n] + m * gravity;
+                // Cundall's local damping opposes the velocity by a share of the force
+                const double against = v == 0.0 ? 0.0 : -std::copysign(alpha * std::abs(force), v);
+                const bool free = fixed[n] == 0.0, empty = m <= 0.0;
+                const double taken = free ? (force + against) / (m * scaling) : (value[n] - v) / dt;
+                damping[n] = free && !empty ? against : 0.0;
+                acceleration[n] = empty ? 0.0 : taken;
             }
+        }
     });
 }
 
@@ -91,22 +91,28 @@ void ExplicitSolver::account(double dt) {
     const VectorField& straining = motion_->stress_first() ? velocity_before_ : velocity_;
     motion_->each_row([&](int j, std::size_t begin, std::size_t end) {
         RowWork row;
-        for (int k = 0; k < 2; ++k)
+        const double* mass = motion_->mass().data();
+        for (int k = 0; k < 2; ++k) {
+            const double *now = velocity_.c[k].data(), *before = velocity_before_.c[k].data(),
+                         *strained = straining.c[k].data(), *initial = internal_initial_.c[k].data(),
+                         *inner_now = internal_.c[k].data(), *inner_before = internal_before_.c[k].data(),
+                         *outer_now = traction_.c[k].data(), *outer_before = traction_before_.c[k].data(),
+                         *damping = damping_.c[k].data(), *acceleration = acceleration_.c[k].data(),
+                         *fixed = fixed_.c[k].data();
+            const double gravity = gravity_[k], scaling = settings_.mass_scaling;
             for (std::size_t n = begin; n < end; ++n) {
-                const double v = velocity_.c[k][n], way = dt * v;
-                const double mean_way = 0.5 * dt * (v + velocity_before_.c[k][n]);
-                const double inner = 0.5 * (internal_before_.c[k][n] + internal_.c[k][n]);
-                const double outer = 0.5 * (traction_before_.c[k][n] + traction_.c[k][n]) + weight(k, n);
-                if (fixed_.c[k][n] != 0.0) { // what holds the node does the rest
-                    row.external += inertia(k, n) * mean_way - inner * way;
-                } else {
-                    row.external += outer * way;
-                    row.power += (internal_.c[k][n] + traction_.c[k][n] + weight(k, n)) * v;
-                }
-                row.internal -= inner * dt * straining.c[k][n];
-                row.straining -= (inner - internal_initial_.c[k][n]) * dt * straining.c[k][n];
-                row.damping += damping_.c[k][n] * mean_way;
+                const double weight = mass[n] * gravity, inertia = mass[n] * scaling * acceleration[n];
+                const double v = now[n], way = dt * v, mean_way = 0.5 * dt * (v + before[n]);
+                const double inner = 0.5 * (inner_before[n] + inner_now[n]);
+                const double outer = 0.5 * (outer_before[n] + outer_now[n]) + weight;
+                const bool free = fixed[n] == 0.0; // what holds a node does the rest
+                row.external += free ? outer * way : inertia * mean_way - inner * way;
+                row.power += free ? (inner_now[n] + outer_now[n] + weight) * v : 0.0;
+                row.internal -= inner * dt * strained[n];
+                row.straining -= (inner - initial[n]) * dt * strained[n];
+                row.damping += damping[n] * mean_way;
             }
+        }
         work_of_row_[static_cast<std::size_t>(j)] = row;
     });
     to_full_step_ = 0.0;

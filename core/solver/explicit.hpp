@@ -35,7 +35,7 @@ class ExplicitSolver final : public Solver {
     double to_full_step_ = 0.0;        // what velocities half a step old lack of the kinetic energy, J
     double limit_ = 0.0, strained_ = 0.0, looked_ = 0.0;
     std::vector<double> stiffest_; // by material, Pa, where the limit was found
-    int fixed_count_ = 0;
+    std::size_t fixed_count_ = 0;
 };
 
 } // namespace gault::core

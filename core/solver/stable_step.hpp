@@ -2,6 +2,9 @@
 #pragma once
 #include "core/solver/motion.hpp"
 
+#include <utility>
+#include <vector>
+
 namespace gault::core {
 
 // Which components of which nodes are prescribed: 0 where free, else a bit for each surface that holds it.
@@ -11,21 +14,22 @@ class FixedField : public VectorField {
     static constexpr int symmetry = 52; // beside the surfaces: a double is exact for the bits 0 to 52
 
     void release() {
-        clear();
-        count_ = 0;
+        for (const auto& [component, node] : held_)
+            c[component][node] = 0.0;
+        held_.clear();
     }
     void hold(int surface, int component, std::size_t node) {
         double& bits = c[component][node];
-        if (bits == 0.0) ++count_;
+        if (bits == 0.0) held_.emplace_back(component, node);
         bits = static_cast<double>(static_cast<int64_t>(bits) | int64_t{1} << surface);
     }
     bool held_by(int surface, int component, std::size_t node) const {
         return static_cast<int64_t>(c[component][node]) >> surface & 1;
     }
-    int count() const { return count_; } // of prescribed components
+    std::size_t count() const { return held_.size(); } // of prescribed components
 
   private:
-    int count_ = 0;
+    std::vector<std::pair<int, std::size_t>> held_;
 };
 
 // 2 / omega_max, s, of the linearised system that the explicit scheme integrates: w' = -M^-1 K v, v = M^-1 C

@@ -17,10 +17,7 @@ Surface::Surface(const Motion& motion, int side, std::optional<std::array<int, 2
     const Grid& grid = motion.grid();
     const Axis& along = grid.axis(1 - normal_axis(side));
     cells_ = cells.value_or(std::array{0, along.cells()});
-    for (int k = cells_[0]; k < cells_[1] + along.degree(); ++k) {
-        ij_.push_back(grid.side_node(side, k));
-        nodes_.push_back(grid.layout().index(ij_.back()[0], ij_.back()[1]));
-    }
+    add_nodes(grid);
     for (int cell = cells_[0]; cell < cells_[1]; ++cell)
         for (const auto& [xi, weight] : gauss)
             add_facet(grid, cell, xi, weight);
@@ -37,9 +34,19 @@ Surface Surface::at(const Motion& motion, int side, double place) {
     const int cell = along.cell_of(place);
     Surface surface(grid, side);
     surface.cells_ = {cell, cell + 1};
+    surface.add_nodes(grid);
     surface.add_facet(grid, cell, (place - along.origin()[cell]) * along.inverse_length()[cell], 1.0);
     surface.begin(motion);
     return surface;
+}
+
+void Surface::add_nodes(const Grid& grid) {
+    const int degree = grid.axis(1 - normal_axis(side_)).degree();
+    for (int k = cells_[0]; k < cells_[1] + degree; ++k) {
+        ij_.push_back(grid.side_node(side_, k));
+        nodes_.push_back(grid.layout().index(ij_.back()[0], ij_.back()[1]));
+    }
+    node_at_.resize(ij_.size());
 }
 
 void Surface::add_facet(const Grid& grid, int cell, double xi, double weight) {
@@ -47,6 +54,7 @@ void Surface::add_facet(const Grid& grid, int cell, double xi, double weight) {
     Facet f;
     const Axis::Weights w = along.weights(cell, xi);
     f.cell = cell;
+    f.first = static_cast<std::size_t>(cell - cells_[0]);
     f.functions = along.degree() + 1;
     f.weight = weight;
     f.length = along.degree() == 0 ? along.length()[cell] : 0.0;
@@ -71,12 +79,15 @@ void Surface::begin(const Motion& motion) {
 void Surface::refresh(const Motion& motion) {
     if (configuration_ == motion.configuration()) return;
     configuration_ = motion.configuration();
+    for (std::size_t n = 0; n < ij_.size(); ++n)
+        for (int k = 0; k < 2; ++k)
+            node_at_[n][k] = motion.node_position(ij_[n][0], ij_[n][1], k);
     for (std::size_t q = 0; q < facets_.size(); ++q) {
         const Facet& f = facets_[q];
         std::array<double, 2> x{}, tangent{0.0, f.length};
         for (int a = 0; a < f.functions; ++a)
             for (int k = 0; k < 2; ++k) {
-                const double at = motion.node_position(f.ij[a][0], f.ij[a][1], k);
+                const double at = node_at_[f.first + static_cast<std::size_t>(a)][k];
                 x[k] += f.value[a] * at;
                 tangent[k] += f.slope[a] * at;
             }

@@ -62,6 +62,7 @@ class Surface {
         std::array<std::array<int, 2>, 3> ij{};
         std::array<double, 3> value{}, slope{}; // N and dN/dxi, xi in [0, 1] along the cell
         int cell = 0, functions = 0;
+        std::size_t first = 0; // of its nodes, among the surface's
         double weight = 0.0;
         double length = 0.0; // along an axis of degree 0, whose one function has no slope
     };
@@ -71,6 +72,7 @@ class Surface {
     };
 
     Surface(const Grid& grid, int side) : side_(side), axisymmetric_(grid.axisymmetric()) {}
+    void add_nodes(const Grid& grid);
     void add_facet(const Grid& grid, int cell, double xi, double weight);
     void begin(const Motion& motion); // once it has its facets
 
@@ -83,6 +85,7 @@ class Surface {
     std::vector<std::array<double, 2>> reference_;
     std::vector<std::array<int, 2>> ij_;
     std::vector<std::size_t> nodes_;
+    std::vector<std::array<double, 2>> node_at_; // positions
     std::vector<std::array<double, 3>> extent_;
     double initial_radius_ = 0.0, initial_area_ = 0.0;
 };

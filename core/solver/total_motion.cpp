@@ -200,15 +200,15 @@ void TotalMotion::stiffness(const VectorField& v, const std::vector<std::array<C
                             VectorField& out) {
     const GridView grid = grid_view();
     const double dt = probe_step(v);
-    for (const Task& task : tasks_) {
-        BatchView view_of = view(task);
-        Workspace& workspace = workspaces_[0];
-        attach_workspace(materials_[task.material], workspace, view_of);
-        kernels_.total_strain(grid, view_of, strain_input(v, dt, true));
-        elastic_stress(moduli[task.material], task, dt, view_of, workspace);
+    team_.each(static_cast<int>(tasks_.size()), [&](int t, int thread) {
+        const Task& task = tasks_[t];
+        BatchView probe = view(task);
+        attach_workspace(materials_[task.material], workspaces_[thread], probe);
+        kernels_.total_strain(grid, probe, strain_input(v, dt, true));
+        elastic_stress(moduli[task.material], task, dt, probe, workspaces_[thread]);
         clear_patch(task, 2);
-        kernels_.total_force(grid, view_of);
-    }
+        kernels_.total_force(grid, probe);
+    });
     reduce({&out.c[0], &out.c[1]});
 }
 

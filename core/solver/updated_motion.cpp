@@ -301,16 +301,17 @@ void UpdatedMotion::stiffness(const VectorField& v, const std::vector<std::array
     const GridView grid = grid_view();
     const double dt = probe_step(v);
     const StrainInput in{{v.c[0].data(), v.c[1].data()}, {nullptr, nullptr}, dt, strain_limit, true};
-    for (const Task& task : tasks_) {
+    team_.each(static_cast<int>(tasks_.size()), [&](int t, int thread) {
+        const Task& task = tasks_[t];
         BatchView probe = view(task);
         for (double*& strain : probe.strain)
             strain = nullptr; // the points' own stays
-        attach_workspace(materials_[task.material], workspaces_[0], probe);
+        attach_workspace(materials_[task.material], workspaces_[thread], probe);
         kernels_.updated_strain(grid, probe, in, false, false);
-        elastic_stress(moduli[task.material], task, dt, probe, workspaces_[0]);
+        elastic_stress(moduli[task.material], task, dt, probe, workspaces_[thread]);
         clear_patch(task, 3);
         kernels_.updated_force(grid, probe);
-    }
+    });
     reduce({&out.c[0], &out.c[1], &mapped_mass_});
 }
 
