@@ -2,8 +2,9 @@
 #include "core/base/isa.hpp"
 #include "core/base/log.hpp"
 #include "core/base/memory.hpp"
-#include "core/scheduler/elasticity.hpp"
+#include "core/scheduler/cautions.hpp"
 #include "core/scheduler/progress.hpp"
+#include "core/scheduler/report.hpp"
 #include "core/scheduler/simulation.hpp"
 #include "core/scheduler/snapshot.hpp"
 #include "core/scheduler/verification.hpp"
@@ -40,34 +41,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// An observer's result is a number, a program's {value, unit, ...}.
-std::string derived_text(const nlohmann::json& result) {
-    if (result.is_number()) return fmt::format("{:.6g}", result.get<double>());
-    const std::string unit = result["unit"], note = result["note"];
-    return fmt::format("{:.6g}{}{}{}", result["value"].get<double>(), unit == "1" ? "" : " " + unit,
-                       note.empty() ? "" : "; ", note);
-}
-
-// What a user should know that is no caution.
-std::vector<std::string> notes(Simulation& simulation) {
-    std::vector<std::string> all;
-    for (const Material& material : simulation.model().materials)
-        if (simulation.scene().solver.kind == SolverKind::quasi_static && !material.has_tangent())
-            all.push_back(
-                fmt::format("material {}: its plugin has no tangent, so it is differentiated numerically, "
-                            "with four more updates a point",
-                            material.name()));
-    return all;
-}
-
 // A simulation, and what is written of it.
 class Run {
   public:
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene), options_(options), threads_(threads_that_pay(scene.points(), options.threads)),
           simulation_(scene, threads_), verification_(scene, simulation_.columns()),
-          writer_(options.folder, options.replace, simulation_.columns(), provenance(),
-                  simulation_.points()) {}
+          writer_(options.folder, options.replace, simulation_.columns(), provenance(), simulation_.points()),
+          cautions_(simulation_) {}
 
     Outcome go();
 
@@ -81,15 +62,8 @@ class Run {
     nlohmann::json plan();
     void fail(const std::string& message); // what was written stays, with the reason
     std::string advice();
-    std::string kinetic_caution() const; // empty: none
-    std::string yield_caution() const;   // empty: none
-    std::string frame_caution(const std::string& status);
-    bool elastic_behind() const;
-    void watch_yield();
     void derive();
     void report();
-    void report_reference() const;
-    void report_derived() const;
     Solver& solver() { return simulation_.solver(); }
 
     const Scene& scene_;
@@ -99,8 +73,7 @@ class Run {
     Simulation simulation_;
     Verification verification_;
     ResultWriter writer_;
-    std::optional<Elasticity> elasticity_; // where a boundary stands for elastic soil
-    double yielding_ = 0.0;                // m; 0: the soil at that boundary is elastic
+    RunCautions cautions_;
     int64_t frame_step_ = -1, frames_ = 0;
     double stepping_ = 0.0; // s
     nlohmann::json reference_, derived_;
@@ -185,8 +158,8 @@ void Run::summary(const char* status, const std::string& message) {
     const double wall = seconds_since(start_);
     const Grid& grid = simulation_.model().grid;
     std::vector<std::string> said = cautions(scene_);
-    for (const std::string& caution : {kinetic_caution(), yield_caution(), frame_caution(status)})
-        if (!caution.empty()) said.push_back(caution);
+    for (std::string& caution : cautions_.now(writer_.rows(), status == std::string("done")))
+        said.push_back(std::move(caution));
     nlohmann::json s = {
         {"status", status},
         {"title", scene_.title},
@@ -215,71 +188,6 @@ void Run::summary(const char* status, const std::string& message) {
     writer_.summary(s);
 }
 
-// A quasi-static curve of a run that is not quasi-static is the commonest misuse of mass scaling.
-std::string Run::kinetic_caution() const {
-    const double ratio = simulation_.largest_kinetic_ratio(writer_.rows());
-    if (ratio <= 0.05) return "";
-    return fmt::format(
-        "caution: kinetic energy reached {:.0f} % of the strain energy; this run shows inertia, not "
-        "a quasi-static test. Load more slowly{}",
-        100.0 * ratio, scene_.solver.mass_scaling > 1.0 ? ", or lower solver.mass_scaling" : "");
-}
-
-bool Run::elastic_behind() const {
-    return scene_.frame == Frame::total &&
-           std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(), [](const BoundaryUse& use) {
-               return static_cast<const gault_boundary_api*>(use.model.component->declaration->api)->flags &
-                      GAULT_BOUNDARY_ELASTIC_BEHIND;
-           });
-}
-
-std::string Run::yield_caution() const {
-    if (yielding_ == 0.0) return "";
-    return fmt::format(
-        "caution: the soil yields up to the boundary at {:.4g} m, which stands for elastic soil "
-        "beyond; about {:.3g} m would have been enough",
-        scene_.geometry.upper[0], yielding_);
-}
-
-std::string Run::frame_caution(const std::string& status) {
-    std::vector<double> never;
-    for (const Crossing& frame : simulation_.frames())
-        if (!frame.done()) never.push_back(frame.target());
-    if (status != "done" || never.empty()) return "";
-    return fmt::format("caution: {} never reached {:g}, where frames were asked for", scene_.frames.measure,
-                       fmt::join(never, ", "));
-}
-
-// Notices soil that yields up to a boundary that stands for elastic soil, and how far it would have.
-void Run::watch_yield() {
-    if (!elasticity_) return;
-    const double outer = scene_.geometry.upper[0];
-    const Axis& axis = simulation_.model().grid.axis(0);
-    const Motion& motion = solver().motion();
-    if (elasticity_->largest_inelastic_radius(motion) >= outer - axis.length()[axis.cells() - 1])
-        yielding_ = std::max(yielding_, elasticity_->yielding_radius(motion, outer));
-}
-
-void Run::report_reference() const {
-    for (const auto& c : reference_.value("curves", nlohmann::json::array())) {
-        const std::string y = c["y"];
-        if (c.contains("not_compared"))
-            log::warn("{} not compared: {}", y, c["not_compared"].get<std::string>());
-        else
-            log::info("{}: largest relative error {:.4f} % at {} = {:.4g}", y,
-                      100.0 * c["largest_relative_error"].get<double>(), c["x"].get<std::string>(),
-                      c["largest_at"].get<double>());
-    }
-    for (const auto& p : reference_.value("profiles", nlohmann::json::array())) {
-        if (p.contains("not_compared"))
-            log::warn("profile not compared: {}", p["not_compared"].get<std::string>());
-        else
-            log::info("{} = {:g}: L2 error of raw sigma_r {:.4f} %, sigma_theta {:.4f} %",
-                      p["measure"].get<std::string>(), p["value"].get<double>(),
-                      100.0 * p["sigma_r_l2"].get<double>(), 100.0 * p["sigma_theta_l2"].get<double>());
-    }
-}
-
 // Names are unique among observers and among programs, not among both.
 void Run::derive() {
     derived_ = verification_.observe(solver());
@@ -288,18 +196,6 @@ void Run::derive() {
     std::string name = scene_.program.component->declaration->name;
     if (derived_.contains(name)) name += "_program";
     derived_[name] = std::move(results);
-}
-
-void Run::report_derived() const {
-    std::vector<std::string> absent;
-    for (const auto& [name, results] : derived_.items())
-        for (const auto& [key, value] : results.items())
-            if (value.is_object() && value.contains("absent"))
-                absent.push_back(key);
-            else
-                log::info("{} {}: {}", name, key, derived_text(value));
-    if (!absent.empty())
-        log::info("not derived, for reasons that are in summary.json: {}", fmt::join(absent, ", "));
 }
 
 void Run::report() {
@@ -311,10 +207,10 @@ void Run::report() {
         log::info("kinetic energy at most {:.2g} % of the strain energy once the load has set in",
                   100.0 * simulation_.largest_kinetic_ratio(writer_.rows()));
     log::info("energy error {:.2g} %", 100.0 * solver().energies().error());
-    for (const std::string& caution : {kinetic_caution(), yield_caution(), frame_caution("done")})
-        if (!caution.empty()) log::warn("{}", caution);
-    report_reference();
-    report_derived();
+    for (const std::string& caution : cautions_.now(writer_.rows(), true))
+        log::warn("{}", caution);
+    report_reference(reference_);
+    report_derived(derived_);
     log::info("results in {}", writer_.folder().string());
 }
 
@@ -322,7 +218,7 @@ void Run::step_on(Progress& progress) {
     if (simulation_.step() == Simulation::Moved::yes) {
         if (simulation_.row_due()) {
             writer_.row(simulation_.row());
-            watch_yield();
+            cautions_.look();
         }
         frames_due(false);
     }
@@ -352,8 +248,6 @@ Outcome Run::go() {
             log::info("{}", note);
     Interrupts interrupts;
     Progress progress(simulation_.points(), options_.quiet);
-    if (elastic_behind())
-        elasticity_.emplace(simulation_.model(), solver().motion(), scene_.volumetric_strain);
     try {
         simulation_.start();
         if (simulation_.row_due()) writer_.row(simulation_.row());
@@ -381,53 +275,6 @@ Outcome Run::go() {
 
 } // namespace
 
-// A side without a boundary that the initial stress pushes against.
-bool is_free_under_stress(const Scene& scene, const SurfaceUse& surface) {
-    const InitialStress& initial = scene.initial_stress;
-    const bool end = surface.side >= low_y;
-    if (surface.cells || surface.name == "axis" || (end && scene.symmetry == Symmetry::radial)) return false;
-    const bool pushed =
-        end ? initial.vertical != 0.0 || (initial.gravity && (surface.side == low_y || initial.depth > 0.0))
-            : initial.k0 * initial.vertical != 0.0 || (initial.gravity && initial.k0 > 0.0);
-    return pushed &&
-           std::none_of(scene.boundaries.begin(), scene.boundaries.end(), [&](const BoundaryUse& use) {
-               return std::any_of(use.surfaces.begin(), use.surfaces.end(), [&](int s) {
-                   return scene.surfaces[static_cast<std::size_t>(s)].side == surface.side;
-               });
-           });
-}
-
-std::vector<std::string> cautions(const Scene& scene) {
-    std::vector<std::string> all;
-    if (scene.solver.time_step_factor > 1.0)
-        all.push_back(fmt::format("caution: with solver.time_step_factor {:g} the step exceeds the stability "
-                                  "limit; the run will likely fail",
-                                  scene.solver.time_step_factor));
-    if (scene.frame == Frame::updated && scene.basis == Basis::linear)
-        all.push_back("caution: with grid.basis linear, forces jump where points cross cells; take "
-                      "quadratic, or model.frame total");
-    for (const SurfaceUse& surface : scene.surfaces)
-        if (is_free_under_stress(scene, surface))
-            all.push_back(
-                fmt::format("caution: nothing acts on '{}', against which the initial stress pushes; give it "
-                            "a boundary",
-                            surface.name));
-    const bool dynamic = scene.solver.kind == SolverKind::explicit_dynamics;
-    if (scene.points_per_cell == 1 && (dynamic || scene.symmetry != Symmetry::radial))
-        all.push_back("caution: one point a cell passes no motion whose sign alternates from node to node, "
-                      "so forces of that shape are never balanced; take 4 points");
-    if (scene.points_per_cell == 1 && scene.basis == Basis::quadratic)
-        all.push_back(
-            "caution: one point a cell does not integrate quadratic functions: the error falls with the "
-            "first power of the cells; take 2 points in radial symmetry, 4 elsewhere");
-    if (scene.placement == Placement::uniform && scene.points_per_cell == 4 &&
-        scene.basis == Basis::quadratic)
-        all.push_back(
-            "caution: four uniform points do not integrate quadratic functions, so surface loads and inertia "
-            "disagree; take points.placement gauss, or 9 points");
-    return all;
-}
-
 int threads_that_pay(std::size_t points, int wanted) {
     const int cores = std::max(1u, std::thread::hardware_concurrency());
     const int useful = static_cast<int>(std::max<std::size_t>(1, points / 8192));
@@ -436,29 +283,6 @@ int threads_that_pay(std::size_t points, int wanted) {
 
 Outcome run_scene(const Scene& scene, const RunOptions& options) {
     return Run(scene, options).go();
-}
-
-std::vector<std::string> check_scene(const Scene& scene) {
-    Simulation simulation(scene, 1);
-    Verification verification(scene, simulation.columns());
-    const Model& model = simulation.model();
-    std::vector<std::string> lines;
-    for (const Choice& choice : scene.chosen)
-        lines.push_back(fmt::format("{}: {} ({})", choice.key, choice.value, choice.reason));
-    for (std::string& caution : cautions(scene))
-        lines.push_back(std::move(caution));
-    for (std::string& note : notes(simulation))
-        lines.push_back(std::move(note));
-    lines.insert(lines.end(), model.description.begin(), model.description.end());
-    for (std::size_t m = 0; m < model.materials.size(); ++m)
-        lines.push_back(
-            fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));
-    for (std::string& line : simulation.solver().boundaries().description())
-        lines.push_back(std::move(line));
-    const double dt = simulation.solver().allowed_step();
-    if (const double limit = simulation.solver().stability_limit(); limit > 0.0)
-        lines.push_back(fmt::format("stable step {:.4g} s, used {:.4g} s", limit, dt));
-    return lines;
 }
 
 } // namespace gault::core

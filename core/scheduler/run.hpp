@@ -24,12 +24,6 @@ enum class Outcome { done, interrupted };
 // current step.
 Outcome run_scene(const Scene& scene, const RunOptions& options);
 
-// Everything that `run` checks before its first step, and what the scene took hold of, a line each.
-std::vector<std::string> check_scene(const Scene& scene);
-
-// Choices of the scene that are allowed and known to give wrong results, a sentence each.
-std::vector<std::string> cautions(const Scene& scene);
-
 // `wanted` 0: as many as pay for so many points.
 int threads_that_pay(std::size_t points, int wanted);
 

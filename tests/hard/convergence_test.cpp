@@ -10,6 +10,7 @@
 // points, after a short one tens of percent. A quadratic basis has a linear strain in a cell: second order.
 // Its 2 x 2 Gauss points are the superconvergent ones of a linear strain; four points therefore look better
 // than sixteen, without the field being better elsewhere.
+#include "core/scheduler/cautions.hpp"
 #include "tests/hard/hard_scene.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "core/scheduler/check.hpp"
 #include "core/scheduler/program.hpp"
 #include "core/scheduler/run.hpp"
 #include "core/scheduler/snapshot.hpp"
