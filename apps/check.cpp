@@ -1,5 +1,5 @@
-#include "apps/command.hpp"
 #include "core/scheduler/check.hpp"
+#include "apps/command.hpp"
 
 #include <fmt/format.h>
 

@@ -51,6 +51,11 @@ core::Scene LoadedScene::reread(const std::vector<core::Override>& more) const {
     return read(joined(core::overrides_of(choices_), more));
 }
 
+std::vector<core::Override> everything_open() {
+    return {{"model.symmetry", "auto"}, {"model.frame", "auto"}, {"model.solver", "auto"},
+            {"grid", "auto"},           {"points", "auto"},      {"solver", "auto"}};
+}
+
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path) {
     options
         .add_option("--plugin-path", plugin_path,

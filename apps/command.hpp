@@ -28,6 +28,7 @@ Action declare_list(CLI::App& options);
 Action declare_describe(CLI::App& options);
 Action declare_bench(CLI::App& options);
 Action declare_plan(CLI::App& options);
+Action declare_frontier(CLI::App& options);
 
 // A scene on the command line: the file, --set, --plugin-path.
 struct SceneArguments {
@@ -58,6 +59,9 @@ class LoadedScene {
     std::vector<core::Choice> choices_;
     core::Scene scene_;
 };
+
+// Leaves all that a plan may choose open.
+std::vector<core::Override> everything_open();
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path);
 

@@ -25,6 +25,7 @@ constexpr std::array commands{
     Command{"run", "Runs a scene and writes its results", declare_run},
     Command{"check", "Does everything that `run` does before its first step", declare_check},
     Command{"plan", "Says what is chosen for a scene, why, and what the run will cost", declare_plan},
+    Command{"frontier", "Measures error against time over families of settings", declare_frontier},
     Command{"list", "Lists every component with its version and file", declare_list},
     Command{"describe", "Prints a component's parameters, states or signals, and reference",
             declare_describe},

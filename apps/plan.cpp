@@ -9,12 +9,6 @@
 namespace gault::app {
 namespace {
 
-// The same scene with all that a plan may choose left open.
-std::vector<core::Override> everything_open() {
-    return {{"model.symmetry", "auto"}, {"model.frame", "auto"}, {"model.solver", "auto"},
-            {"grid", "auto"},           {"points", "auto"},      {"solver", "auto"}};
-}
-
 std::string amount(double value, const char* unit) {
     for (const auto& [size, prefix] : {std::pair{1e9, "G"}, {1e6, "M"}, {1e3, "k"}})
         if (value >= size) return fmt::format("{:.3g} {}{}", value / size, prefix, unit);

@@ -40,6 +40,8 @@ def pick(table, *names):
 
 def found(file, summary):
     """A reference file, which a summary names relative to the scene's folder; None, with a word, if it is gone."""
+    if not file:
+        return None
     place = Path(summary["provenance"]["scene"]).parent / file
     if place.is_file():
         return place
@@ -70,7 +72,7 @@ def draw_curve(axes, summary, history, reference, measured):
     peak = int(np.argmax(pressure))
     axes.plot(strain, pressure, color=LINE, lw=2, label="Gault")
     for number, curve in enumerate(reference.get("curves", [])):
-        if "pressure" not in curve.get("y", "true_pressure") or not (file := found(curve["file"], summary)):
+        if "pressure" not in curve.get("y", "true_pressure") or not (file := found(curve.get("file"), summary)):
             continue
         x, y = list(columns(file).items())[:2]
         axes.plot(100 * x[1], pick(dict([y]), y[0]), color=REFERENCE, lw=1.2, ls="--",
@@ -97,7 +99,7 @@ def draw_profiles(axes, summary, frames, reference):
         axes.plot(radius, stress, ".", color=color, ms=8, mew=0, alpha=0.7, label=frame_label(attributes))
     label = "reference"
     for profile in reference.get("profiles", []):
-        if file := found(profile["file"], summary):
+        if file := found(profile.get("file"), summary):
             table = columns(file)
             axes.plot(pick(table, "current_radius", "radius"), pick(table, "sigma_r"), color=REFERENCE, lw=0.8,
                       label=label)
@@ -119,11 +121,11 @@ def report(folder, history, summary):
     reference = summary.get("reference") or {}
     for curve in reference.get("curves", []):
         if "largest_relative_error" in curve:
-            print(f"Error of the curve: {100 * curve['largest_relative_error']:.3f} % at most, against {curve['file']}")
+            print(f"Error of the curve: {100 * curve['largest_relative_error']:.3f} % at most, against {curve.get('file') or curve['against']}")
     for profile in reference.get("profiles", []):
         if "sigma_r_l2" in profile:
             print(f"Error of the radial stress of the points at {100 * profile['value']:g} %: "
-                  f"{100 * profile['sigma_r_l2']:.3f} % (L2), against {profile['file']}")
+                  f"{100 * profile['sigma_r_l2']:.3f} % (L2), against {profile.get('file') or profile['against']}")
     if "total" in summary.get("wall_seconds", {}):
         print(f"Wall time: {summary['wall_seconds']['total']:.1f} s")
     print(f"Results: {folder.resolve()}")

@@ -58,7 +58,7 @@ CurveReference read_curve(const Node& node, const std::string& path, const Sourc
     return curve;
 }
 
-// A profile is compared at a frame, so there must be one.
+// A profile is compared at a frame, so there must be one. `key` is the value as written.
 void check_frame(const Key& key, const std::string& path, double value, const std::string& measure,
                  const FrameRequest& frames) {
     const bool there = frames.measure == measure &&
@@ -93,6 +93,27 @@ ProfileReference read_profile(const Node& node, const std::string& path, const S
             {value, existing_file(files.items[i], fields.path("files") + "." + key.text, source.folder)});
     }
     return profile;
+}
+
+PalmerReference read_palmer(const Node& node, const Records& records, const FrameRequest& frames) {
+    const Fields fields(node, "reference.palmer", {"x", "y", "range", "at"});
+    const Key x = key_of(fields.require("x", "the record of the cavity strain"), fields.path("x"));
+    const Key y = key_of(fields.require("y", "the record of the true pressure"), fields.path("y"));
+    const std::string unit = records.unit(x, fields.path("x"));
+    records.unit(y, fields.path("y"));
+    const auto range =
+        read_range(fields.require("range", "the x compared, [low, high]"), fields.path("range"), unit);
+    PalmerReference palmer{x.text, y.text, range[0], range[1], {}, node.where()};
+    if (range[0] < 0.0)
+        throw InputError(fields.find("range")->where(),
+                         fields.path("range") + " begins below 0: a cavity that closes");
+    const Node* at = fields.find("at");
+    for (const Node* item : at ? one_or_more(*at) : std::vector<const Node*>{}) {
+        add_value(palmer.at, read_quantity(*item, fields.path("at"), unit, positive), item->where(),
+                  fields.path("at"));
+        check_frame({item->text, item->place}, fields.path("at"), palmer.at.back(), palmer.x, frames);
+    }
+    return palmer;
 }
 
 Scene::ObserverUse read_observer(const Node& node, const std::string& path, const Source& source,
@@ -138,7 +159,7 @@ void read_output(const Source& source, Scene& scene) {
 }
 
 void read_reference(const Source& source, Scene& scene) {
-    const Fields fields = source.root.section("reference", {"curve", "profiles", "observers"});
+    const Fields fields = source.root.section("reference", {"curve", "profiles", "palmer", "observers"});
     const Records records(scene.program);
     read_items(fields, "curve", scene.curves, [&](const Node& item, const std::string& path) {
         return read_curve(item, path, source, records);
@@ -146,6 +167,8 @@ void read_reference(const Source& source, Scene& scene) {
     read_items(fields, "profiles", scene.profiles, [&](const Node& item, const std::string& path) {
         return read_profile(item, path, source, records, scene.frames);
     });
+    if (const Node* palmer = fields.find("palmer"))
+        scene.palmer = read_palmer(*palmer, records, scene.frames);
     read_items(fields, "observers", scene.observers, [&](const Node& item, const std::string& path) {
         return read_observer(item, path, source, scene);
     });

@@ -124,6 +124,13 @@ struct ProfileReference { // radial profiles of the raw point stress at frames
     std::vector<At> at;
 };
 
+struct PalmerReference {    // the history and profiles of a cavity in a soil that keeps its volume
+    std::string x, y;       // columns of the history: cavity strain, true pressure
+    double from, to;        // range of x compared
+    std::vector<double> at; // values of x whose profiles are compared
+    Location where;
+};
+
 struct Scene {
     std::string title;
     std::string yaml; // as run, with every --set applied
@@ -160,6 +167,7 @@ struct Scene {
     FrameRequest frames;
     std::vector<CurveReference> curves;
     std::vector<ProfileReference> profiles;
+    std::optional<PalmerReference> palmer;
     struct ObserverUse {
         std::optional<int> surface;
         ComponentUse model;

@@ -118,8 +118,8 @@ void Run::write_frame() {
 }
 
 void Run::frames_due(bool last) {
-    for (const ProfileReference& profile : scene_.profiles)
-        verification_.at(profile.measure, simulation_.measured(profile.measure), solver().motion());
+    verification_.look([&](const std::string& measure) { return simulation_.measured(measure); },
+                       solver().motion());
     bool due = last;
     for (Crossing& frame : simulation_.frames())
         due |= frame.reached(simulation_.measured(scene_.frames.measure));
@@ -180,6 +180,7 @@ void Run::summary(const char* status, const std::string& message) {
           {"energy_error", solver().energies().error()}}},
         {"wall_seconds", {{"total", wall}, {"stepping", stepping_}, {"other", wall - stepping_}}},
         {"threads", threads_},
+        {"peak_memory_bytes", peak_resident_bytes()},
         {"derived", derived_},
         {"reference", reference_},
         {"provenance", provenance().text}};

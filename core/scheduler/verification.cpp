@@ -2,11 +2,13 @@
 #include "core/base/suggest.hpp"
 #include "core/base/units.hpp"
 #include "core/registry/answer.hpp"
+#include "core/scheduler/palmer.hpp"
 #include "core/scheduler/program.hpp"
 #include "core/scheduler/snapshot.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -36,6 +38,10 @@ std::vector<double> read_column(const CsvTable& table, const std::filesystem::pa
         fmt::format("{}: no column '{}'{}", file.string(), name, suggestion(name, table.columns)));
 }
 
+nlohmann::json file_origin(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    return {{"file", file.lexically_relative(folder).string()}};
+}
+
 std::size_t history_column(const std::vector<ColumnInfo>& columns, const std::string& name,
                            const Location& where) {
     std::vector<std::string> names;
@@ -48,13 +54,14 @@ std::size_t history_column(const std::vector<ColumnInfo>& columns, const std::st
 
 } // namespace
 
-Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& columns)
-    : folder_(scene.file.parent_path()) {
+Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& columns) {
+    const std::filesystem::path folder = scene.file.parent_path();
     for (const CurveReference& use : scene.curves) {
         const CsvTable table = read_csv(use.file);
         const std::size_t x = history_column(columns, use.x, use.where),
                           y = history_column(columns, use.y, use.where);
-        curves_.push_back({&use, x, y, read_column(table, use.file, use.x, columns[x].unit),
+        curves_.push_back({use, file_origin(use.file, folder), x, y,
+                           read_column(table, use.file, use.x, columns[x].unit),
                            read_column(table, use.file, use.y, columns[y].unit)});
     }
     for (const ProfileReference& use : scene.profiles)
@@ -62,12 +69,13 @@ Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& co
             const CsvTable table = read_csv(at.file);
             profiles_.push_back({use.measure,
                                  Crossing(at.value),
-                                 at.file,
+                                 file_origin(at.file, folder),
                                  read_column(table, at.file, "reference_radius", "m"),
                                  read_column(table, at.file, "sigma_r", "Pa"),
                                  read_column(table, at.file, "sigma_theta", "Pa"),
                                  {}});
         }
+    if (scene.palmer) add_palmer(scene, columns);
     for (const Scene::ObserverUse& use : scene.observers) {
         Observer observer{Instance(*use.model.component, use.model.parameters), use.surface.value_or(0), {}};
         const auto& api = observer.instance.api<gault_observer_api>();
@@ -80,9 +88,39 @@ Verification::Verification(const Scene& scene, const std::vector<ColumnInfo>& co
     }
 }
 
-void Verification::at(const std::string& measure, double value, const Motion& motion) {
+void Verification::add_palmer(const Scene& scene, const std::vector<ColumnInfo>& columns) {
+    constexpr int places = 2000;
+    const PalmerReference& use = *scene.palmer;
+    const nlohmann::json source = {{"against", "Palmer's integral of the soil's own path"}};
+    const PalmerSolution exact(scene,
+                               std::max(use.to, use.at.empty() ? 0.0 : *std::ranges::max_element(use.at)));
+    Curve curve{{use.x, use.y, {}, use.from, use.to, {}, use.where},
+                source,
+                history_column(columns, use.x, use.where),
+                history_column(columns, use.y, use.where),
+                {},
+                {}};
+    for (int k = 0; k <= places; ++k) { // denser where the curve bends, and a little beyond the end
+        const double share = static_cast<double>(k) / places, x = use.to * share * share * (1.0 + 1e-6);
+        curve.x_reference.push_back(x);
+        curve.y_reference.push_back(exact.pressure(x));
+    }
+    curves_.push_back(std::move(curve));
+    for (const double x : use.at) {
+        PalmerSolution::Profile profile = exact.profile(x, places);
+        profiles_.push_back({use.x,
+                             Crossing(x),
+                             source,
+                             std::move(profile.radius),
+                             std::move(profile.sigma_r),
+                             std::move(profile.sigma_theta),
+                             {}});
+    }
+}
+
+void Verification::look(const std::function<double(const std::string&)>& measured, const Motion& motion) {
     for (Profile& profile : profiles_) {
-        if (profile.measure != measure || !profile.value.reached(value)) continue;
+        if (!profile.value.reached(measured(profile.measure))) continue;
         PointArrays points = collect(motion);
         for (const int k : {0, 2})
             for (double& s : points.stress[k])
@@ -104,30 +142,27 @@ nlohmann::json Verification::finish(const std::vector<std::vector<double>>& rows
             x.push_back(row[curve.x]);
             y.push_back(row[curve.y]);
         }
-        nlohmann::json j = {{"x", curve.use->x},
-                            {"y", curve.use->y},
-                            {"file", curve.use->file.lexically_relative(folder_).string()},
-                            {"from", curve.use->from},
-                            {"to", curve.use->to}};
+        nlohmann::json j = {
+            {"x", curve.use.x}, {"y", curve.use.y}, {"from", curve.use.from}, {"to", curve.use.to}};
+        j.update(curve.source);
         try {
             const CurveError error =
-                compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use->from, curve.use->to);
+                compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use.from, curve.use.to);
             j["largest_relative_error"] = error.largest;
             j["largest_at"] = error.largest_at;
             j["root_mean_square"] = error.root_mean_square;
             j["rows"] = error.rows;
-            if (curve.use->noise)
+            if (curve.use.noise)
                 j["noise_about_cubic"] =
-                    noise_about_cubic(x, y, (*curve.use->noise)[0], (*curve.use->noise)[1]);
+                    noise_about_cubic(x, y, (*curve.use.noise)[0], (*curve.use.noise)[1]);
         } catch (const InputError& error) {
             j["not_compared"] = error.what();
         }
         result["curves"].push_back(std::move(j));
     }
     for (const Profile& profile : profiles_) {
-        nlohmann::json j = {{"measure", profile.measure},
-                            {"value", profile.value.target()},
-                            {"file", profile.file.lexically_relative(folder_).string()}};
+        nlohmann::json j = {{"measure", profile.measure}, {"value", profile.value.target()}};
+        j.update(profile.source);
         if (profile.errors.is_null())
             j["not_compared"] = fmt::format("{} never reached {:g}", profile.measure, profile.value.target());
         else

@@ -7,6 +7,7 @@
 #include "core/scheduler/crossing.hpp"
 #include "core/solver/solver.hpp"
 
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,8 +19,8 @@ class Verification {
   public:
     Verification(const Scene& scene, const std::vector<ColumnInfo>& columns); // reads every file: InputError
 
-    // Compares the profiles that are due when `measure` has reached `value`.
-    void at(const std::string& measure, double value, const Motion& motion);
+    // Compares the profiles that are due; `measured` gives a column of the history now.
+    void look(const std::function<double(const std::string&)>& measured, const Motion& motion);
     // Errors of the whole history; the history's columns are those given to the constructor.
     // What could not be compared says why, under `not_compared`.
     nlohmann::json finish(const std::vector<std::vector<double>>& rows) const;
@@ -28,14 +29,15 @@ class Verification {
 
   private:
     struct Curve {
-        const CurveReference* use;
-        std::size_t x, y; // columns of the history
+        CurveReference use;
+        nlohmann::json source; // {file} or {against}
+        std::size_t x, y;      // columns of the history
         std::vector<double> x_reference, y_reference;
     };
     struct Profile {
         std::string measure;
         Crossing value;
-        std::filesystem::path file;
+        nlohmann::json source;
         std::vector<double> radius, sigma_r, sigma_theta; // m; Pa, compression positive
         nlohmann::json errors;                            // null before its value is reached
     };
@@ -44,12 +46,12 @@ class Verification {
         int surface;
         std::vector<std::string> measures;
     };
+    void add_palmer(const Scene& scene, const std::vector<ColumnInfo>& columns);
     static nlohmann::json ask(const Observer& observer, Solver& solver, gault_sample sample);
 
     std::vector<Curve> curves_;
     std::vector<Profile> profiles_;
     std::vector<Observer> observers_;
-    std::filesystem::path folder_; // of the scene
 };
 
 } // namespace gault::core
