@@ -80,7 +80,7 @@ def main():
         for axes in panels.flat[len(errors):]:
             axes.axis("off")
         handles, labels = panels.flat[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=9)
+        figure.legend(handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0), ncols=2, fontsize=9)
     else:
         families = [family for family in data["families"] if any("curve" in member for member in family["members"])]
         columns = min(3, max(1, len(families)))
@@ -92,7 +92,7 @@ def main():
             axes.axis("off")
     machine = data["machine"]
     figure.suptitle(f"{data['title']}\n{data['program']}, {machine['processor']}, {machine['cores']} cores", fontsize=11)
-    figure.savefig(arguments.output, dpi=130)
+    figure.savefig(arguments.output, dpi=130, bbox_inches="tight")
 
 
 if __name__ == "__main__":

@@ -28,9 +28,9 @@ std::string in_line(const Node& node) {
     return node.kind == NodeKind::map ? "{" + text + "}" : "[" + text + "]";
 }
 
-// The first number in a value: 72 of [72, 1], 0.1 of '0.1 %'.
+// The first number in a value: 72 of [72, 1] and of {cells: [72, 1]}, 0.1 of 0.1 %.
 double number_in(const Node& node) {
-    if (node.kind == NodeKind::list && !node.items.empty()) return number_in(node.items[0]);
+    if (!node.items.empty()) return number_in(node.items[0]);
     const char* begin = node.text.c_str();
     char* end = nullptr;
     const double value = std::strtod(begin, &end);
@@ -85,12 +85,23 @@ std::vector<Study::Member> read_members(const Node* vary, const std::string& pat
     return members;
 }
 
+void put_labels(const Node& list, const std::string& path, std::vector<Study::Member>& members) {
+    require_kind(list, NodeKind::list, path);
+    if (list.items.size() != members.size())
+        throw InputError(list.where(), path + " has " + std::to_string(list.items.size()) + " items for " +
+                                           std::to_string(members.size()) + " members");
+    for (std::size_t i = 0; i < members.size(); ++i)
+        members[i].label = read_name(list.items[i], path + "." + std::to_string(i));
+}
+
 Study::Family read_family(const Node& node, const std::string& path, const std::vector<Override>& common,
                           int threads) {
-    const Fields fields(node, path, {"name", "set", "vary"});
+    const Fields fields(node, path, {"name", "set", "vary", "labels"});
     Study::Family family{read_name(fields.require("name"), fields.path("name")), common, {}};
     if (const Node* set = fields.find("set")) add_settings(*set, fields.path("set"), family.set, threads);
     family.members = read_members(fields.find("vary"), fields.path("vary"), threads);
+    if (const Node* labels = fields.find("labels"))
+        put_labels(*labels, fields.path("labels"), family.members);
     return family;
 }
 

@@ -77,6 +77,14 @@ json extremes(const CsvTable& history) {
     return all;
 }
 
+// The last line that a failed run wrote, without its "error: ".
+std::string last_line(std::string text) {
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    text.erase(0, text.rfind('\n') + 1);
+    return text.rfind("error: ", 0) == 0 ? text.substr(7) : text;
+}
+
 // The number at the places of a measure, of several the largest; null where one of them holds none.
 json measured(const json& results, const Study::Measure& measure) {
     double largest = -HUGE_VAL;
@@ -165,11 +173,12 @@ void Frontier::run(Run& run) {
         command.insert(command.end(), {"--threads", std::to_string(run.member->threads)});
     const ChildResult child = run_child(command, scratch_.path() / "error");
     if (child.status == 2)
-        throw InputError(fmt::format("{}, {}: {}", run.family->name, run.member->label, child.error));
+        throw InputError(
+            fmt::format("{}, {}: {}", run.family->name, run.member->label, last_line(child.error)));
     if (child.status == 130 || child.status == 128 + 2)
         throw RunError("interrupted; what was measured is written");
     if (child.status != 0) {
-        run.failure = child.error.substr(0, child.error.find('\n'));
+        run.failure = last_line(child.error);
         return;
     }
     run.seconds.push_back(child.seconds);
@@ -264,21 +273,22 @@ json Frontier::to_json(const Run& run) const {
     return j;
 }
 
-// The order of an error over the size that is varied, from each member and the one before.
+// The order of an error over the size that is varied, from each member and the one before; sizes that differ by less
+// than a tenth (0.499 and 0.4999) have none.
 void Frontier::mark_orders(json& family) const {
     json& members = family["members"];
-    for (std::size_t k = 1; k < members.size(); ++k)
+    for (std::size_t k = 1; k < members.size(); ++k) {
+        const json &here = members[k], &last = members[k - 1];
+        if (!here.contains("errors") || !last.contains("errors")) continue;
+        const double steps = std::abs(std::log(here["size"].get<double>() / last["size"].get<double>()));
+        if (!(steps > 0.1)) continue;
         for (const Study::Measure& error : errors_) {
-            const json now = members[k].value("errors", json::object()).value(error.name, json()),
-                       before = members[k - 1].value("errors", json::object()).value(error.name, json());
-            if (!now.is_number() || !before.is_number() || !members[k]["size"].is_number() ||
-                !members[k - 1]["size"].is_number())
-                continue;
-            const double order =
-                std::log(before.get<double>() / now.get<double>()) /
-                std::abs(std::log(members[k]["size"].get<double>() / members[k - 1]["size"].get<double>()));
+            const json now = here["errors"][error.name], before = last["errors"][error.name];
+            if (!now.is_number() || !before.is_number()) continue;
+            const double order = std::log(before.get<double>() / now.get<double>()) / steps;
             if (std::isfinite(order)) members[k]["orders"][error.name] = order;
         }
+    }
 }
 
 // A member is on the front of an error where none is both faster and nearer.

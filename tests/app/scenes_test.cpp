@@ -11,7 +11,8 @@ std::vector<std::string> scenes() {
     std::vector<std::string> found;
     for (const char* top : {"configs", "plugins"})
         for (const auto& entry : fs::recursive_directory_iterator(repository / top))
-            if (entry.path().extension() == ".yaml")
+            if (entry.path().extension() == ".yaml" &&
+                entry.path().parent_path().stem() != "frontier") // studies
                 found.push_back(fs::relative(entry.path(), repository).string());
     std::sort(found.begin(), found.end());
     return found;
