@@ -57,10 +57,11 @@ TEST_F(Frontier, ExtrapolatesWhereThereIsNoReference) {
                          "families:\n  - name: cells\n    vary: {grid.cells: [12, 24, 48, 96]}\n",
                      {"--force"});
         EXPECT_EQ(outcome.status, 0) << outcome.err;
-        std::vector<double> all;
-        for (const auto& member : written()["families"][0]["members"])
-            all.push_back(member["errors"][name]);
-        return all;
+        const auto all = written();
+        std::vector<double> found;
+        for (const auto& member : all["families"][0]["members"])
+            found.push_back(member["errors"][name]);
+        return found;
     };
     const auto exact = errors("", "true_pressure"), estimated = errors(", reference: {}", "true_pressure_Pa");
     EXPECT_NE(written()["against"].get<std::string>().find("Richardson"), std::string::npos);
@@ -77,7 +78,7 @@ TEST_F(Frontier, KeepsAMemberThatFails) {
                  "families:\n  - name: steps\n    vary: {solver: [{mass_scaling: 900}, "
                  "{mass_scaling: 900, time_step_factor: 1.9}]}\n");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const auto members = written()["families"][0]["members"];
+    const nlohmann::json members = written()["families"][0]["members"];
     EXPECT_EQ(members[0]["status"], "done");
     EXPECT_EQ(members[1]["status"], "failed");
     EXPECT_NE(members[1]["message"].get<std::string>().find("step"), std::string::npos);
