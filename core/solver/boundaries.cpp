@@ -248,6 +248,27 @@ void Boundaries::load(const Motion& motion, double time, double dt, const Vector
         }
 }
 
+double Boundaries::dashpot_rate(const Motion& motion) {
+    VectorField resistance(motion.grid().layout());
+    for (const Condition& condition : conditions_) {
+        if (!(condition.api().flags & GAULT_BOUNDARY_ELASTIC_BEHIND)) continue;
+        for (std::size_t s = 0; s < condition.loaded.size(); ++s) {
+            Surface& surface = surfaces_[condition.surfaces[s]];
+            surface.refresh(motion);
+            for (std::size_t q = 0; q < surface.size(); ++q) {
+                const auto area = surface.area(q);
+                const double r = condition.loaded[s].impedance[0][q] * std::hypot(area[0], area[1]);
+                surface.add_force(resistance, q, {r, r});
+            }
+        }
+    }
+    double fastest = 0.0;
+    for (const Surface& surface : surfaces_)
+        for (const std::size_t n : surface.nodes())
+            if (motion.mass()[n] > 0.0) fastest = std::max(fastest, resistance.c[0][n] / motion.mass()[n]);
+    return fastest;
+}
+
 void Boundaries::add_load(int surface, int cell, const std::array<double, 2>& force) {
     for (const int other : beside_[surface])
         if (surfaces_[other].has_cell(cell))

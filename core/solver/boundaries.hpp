@@ -33,6 +33,9 @@ class Boundaries {
     // `stiffness`, if any, += -d(force)/d(displacement).
     void load(const Motion& motion, double time, double dt, const VectorField& velocity, VectorField& force,
               Stiffness* stiffness = nullptr);
+    // The fastest rate, 1/s, at which the dashpots of the soil that boundaries stand for take the velocity of a
+    // node: the sum of its row over its mass, so no less than the largest eigenvalue.
+    double dashpot_rate(const Motion& motion);
     // Surfaces are counted as in Scene::surfaces: the four sides first.
     Surface& surface(int index) { return surfaces_[index]; }
     const Surface& surface(int index) const { return surfaces_[index]; }

@@ -60,6 +60,9 @@ void ExplicitSolver::refresh_limit(Moduli moduli) {
     boundaries_.constrain(*motion_, time_, 0.0, fixed_, value_);
     fixed_count_ = fixed_.count();
     limit_ = stable_step(*motion_, moduli, fixed_, settings_.mass_scaling / (1.0 + settings_.damping));
+    // A dashpot acts on the velocity half a step ago: stable where (2 / limit)^2 dt^2 + 2 rate dt <= 4.
+    const double slow = 0.25 * limit_ * boundaries_.dashpot_rate(*motion_) / settings_.mass_scaling;
+    limit_ *= std::sqrt(1.0 + slow * slow) - slow;
     motion_->set_viscosity(std::move(viscosity));
     strained_ = looked_ = 0.0;
 }

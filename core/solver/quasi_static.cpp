@@ -139,8 +139,8 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::evaluate(const Moment& moment) {
 double QuasiStaticSolver::unbalanced() const {
     double free = 0.0, all = 0.0, left = 0.0, way = 0.0;
     each_component([&](Eigen::Index, int k, std::size_t n) {
-        const double force = internal_.c[k][n] + traction_.c[k][n] + weight(k, n);
-        all += internal_.c[k][n] * internal_.c[k][n] + traction_.c[k][n] * traction_.c[k][n];
+        const double own = weight(k, n), force = internal_.c[k][n] + traction_.c[k][n] + own;
+        all += internal_.c[k][n] * internal_.c[k][n] + traction_.c[k][n] * traction_.c[k][n] + own * own;
         way += wanted_.c[k][n] * wanted_.c[k][n] + du_.c[k][n] * du_.c[k][n];
         if (fixed_.c[k][n] == 0.0)
             free += force * force;

@@ -256,7 +256,8 @@ struct Pressuremeter {
     // The share of the step that ended after which the first event was reached; 1 where none was overshot.
     double share_to_event(gault::Step& step, const State& before, const State& now) const {
         const Part part = present(step).value();
-        if (part.drive == Part::Drive::wall && part.rate > 0.0 && now.strain < before.strain)
+        if (part.drive == Part::Drive::wall && part.rate > 0.0 &&
+            now.strain < step.memory(part_strain) - sent)
             throw std::runtime_error(
                 "a pressuremeter opens a cavity; the radius of this surface falls as the wall "
                 "moves into the soil");

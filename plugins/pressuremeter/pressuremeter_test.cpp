@@ -76,6 +76,19 @@ TEST(Pressuremeter, EndsExactlyAtTheWantedStrainWhateverTheStep) {
     }
 }
 
+// A smooth start moves the wall by less than its radius resolves.
+TEST(Pressuremeter, DoesNotTakeRoundingForACavityThatCloses) {
+    const Component c = program({{"rate", 1e-3}});
+    Cavity cavity(c);
+    cavity.step(1e-6);
+    cavity.radius = std::nextafter(cavity.radius, 0.0);
+    cavity.measure();
+    cavity.step(1e-6);
+    cavity.radius = a0 * (1.0 - 1e-10);
+    cavity.measure();
+    EXPECT_EQ(cavity.run.advance(1e-6), GAULT_FAILED);
+}
+
 TEST(Pressuremeter, MovesTheWallAtTheRateAfterASmoothStart) {
     const Component c = program({{"rate", 1e-3}, {"ramp_time", 0.1}});
     Cavity cavity(c);

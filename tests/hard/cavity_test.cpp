@@ -1,6 +1,7 @@
 // Cavities opened in cylinders and in soil without bound, without inertia and in radial symmetry, as the plan chooses:
 // against closed forms and independent computations. Exact values: Yu and Houlsby (1991) for the frictional soil,
 // Hencky strains and Li2 for the clay; soil F is Fahey's, clay T has s_u 50 kPa, G 5 MPa, p0 100 kPa.
+#include "tests/hard/closed_forms.hpp"
 #include "tests/hard/hard_scene.hpp"
 
 #include <fmt/format.h>
@@ -213,28 +214,6 @@ TEST(Elastic, CylinderOpenedToTwiceItsRadius) {
 }
 
 // ---- clay T, undrained ----
-
-double dilogarithm(double x) { // Li2, 0 <= x < 1
-    double sum = 0.0, power = 1.0;
-    for (int k = 1; k < 4000; ++k)
-        sum += (power *= x) / (static_cast<double>(k) * k);
-    return sum;
-}
-
-// The exact mean stress at the current radius r, compression positive, Pa, in a cylinder under p0 outside.
-struct UndrainedCylinder {
-    double a0 = 0.02, b0 = 0.2, su = 50e3, G = 5e6, p0 = 100e3;
-    double mean(double r, double cavity_strain) const {
-        const double kk = a0 * a0 * (std::pow(1.0 + cavity_strain, 2) - 1.0), q = 1.0 - std::exp(-su / G);
-        const double c2 = kk / q, b2 = b0 * b0 + kk, r2 = r * r;
-        if (r2 >= c2) { // elastic
-            const double e = -0.5 * std::log(1.0 - kk / r2);
-            return p0 + G * (dilogarithm(kk / r2) - dilogarithm(kk / b2)) - 2.0 * G * e;
-        }
-        const double at_c = c2 >= b2 ? p0 : p0 + G * (dilogarithm(q) - dilogarithm(kk / b2));
-        return at_c + su * std::log(std::min(c2, b2) / r2) - su;
-    }
-};
 
 // The largest relative error of a raw point.
 double worst_mean_stress(const HardScene& s, double cavity_strain) {

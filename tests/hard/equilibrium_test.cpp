@@ -1,4 +1,4 @@
-#include "tests/hard/hard_scene.hpp"
+#include "tests/hard/ways.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -8,29 +8,28 @@
 namespace gault::core::test {
 namespace {
 
-class EveryFrame : public testing::TestWithParam<const char*> {
-  protected:
-    std::vector<Override> with(std::vector<Override> more = {}) const {
-        more.push_back({"model.frame", GetParam()});
-        return more;
-    }
-    bool total() const { return std::string(GetParam()) == "total"; }
-};
-INSTANTIATE_TEST_SUITE_P(Frames, EveryFrame, testing::Values("total", "updated"),
-                         [](const auto& instance) { return std::string(instance.param); });
+class Equilibrium : public EveryWay {};
+INSTANTIATE_TEST_SUITE_P(Ways, Equilibrium, every_way(), name_of_way);
 
 // ---- self-weight column -------------------------------------------------------------------------------
 
-std::vector<double> column_errors(const char* basis, const char* frame) {
+const Override weight_at_once{"solver.strain_step",
+                              "0.1"}; // without inertia it comes in the first step: 4 % of strain
+
+std::vector<double> column_errors(const char* basis, const Way& way) {
     std::vector<double> errors;
     for (const int n : {8, 16, 32, 64}) {
-        HardScene s("hard/self_weight_column",
-                    {{"grid.cells", cells(1, n)}, {"grid.basis", basis}, {"model.frame", frame}});
+        HardScene s("hard/self_weight_column", {{"grid.cells", cells(1, n)},
+                                                {"grid.basis", basis},
+                                                {"model.frame", way.frame},
+                                                {"model.solver", way.solver},
+                                                weight_at_once});
         s.run();
         const PointArrays p = s.points();
         errors.push_back(
             l2_error(p, 1, [&](std::size_t i) { return -80.0 * 10.0 * (50.0 - p.reference[1][i]); }));
-        std::printf("%s %s %2d cells: error of the raw sigma_yy %.3e\n", frame, basis, n, errors.back());
+        std::printf("%s %s %2d cells: error of the raw sigma_yy %.3e\n", way.name().c_str(), basis, n,
+                    errors.back());
     }
     return errors;
 }
@@ -40,12 +39,14 @@ double order(const std::vector<double>& errors) { // of grids each twice as fine
 }
 
 TEST(SelfWeightColumn, ConvergesWithSecondOrderForTheQuadraticBasis) {
-    EXPECT_GT(order(column_errors("quadratic", "total")), 1.8);
+    for (const char* solver : {"explicit", "quasi_static"})
+        EXPECT_GT(order(column_errors("quadratic", {"total", solver})), 1.8);
 }
 
 // A linear basis has one stress a cell, right in its middle: at the points it is off by first order.
 TEST(SelfWeightColumn, ConvergesWithFirstOrderForTheLinearBasis) {
-    EXPECT_GT(order(column_errors("linear", "total")), 0.95);
+    for (const char* solver : {"explicit", "quasi_static"})
+        EXPECT_GT(order(column_errors("linear", {"total", solver})), 0.95);
 }
 
 // Where points have crossed, some cells hold too many and their neighbours too few: the points then integrate
@@ -53,12 +54,13 @@ TEST(SelfWeightColumn, ConvergesWithFirstOrderForTheLinearBasis) {
 // (Steffen, Kirby and Berzins 2008). A fixed number of points a cell thus stops converging. It stops here
 // below 0.2 %, with jumps nowhere; the mean stress is exact, as the sum of forces is.
 TEST(SelfWeightColumn, StaysAccurateWhilePointsCrossCells) {
-    for (const double error : column_errors("quadratic", "updated"))
-        EXPECT_LT(error, 2e-3);
+    for (const char* solver : {"explicit", "quasi_static"})
+        for (const double error : column_errors("quadratic", {"updated", solver}))
+            EXPECT_LT(error, 2e-3);
 }
 
-TEST_P(EveryFrame, SelfWeightGivesFortyKilopascalsAtTheBase) {
-    HardScene s("hard/self_weight_column", with());
+TEST_P(Equilibrium, SelfWeightGivesFortyKilopascalsAtTheBase) {
+    HardScene s("hard/self_weight_column", with({weight_at_once}));
     s.run();
     EXPECT_NEAR(s.solver.measure("normal_force", low_y).value(), 40e3, 1.0); // on 1 m of width
     // settlement: the integral of 1 - exp(-rho g (l0 - Y) / E)
@@ -75,7 +77,7 @@ TEST_P(EveryFrame, SelfWeightGivesFortyKilopascalsAtTheBase) {
 
 // ---- uniform stresses ---------------------------------------------------------------------------------
 
-TEST_P(EveryFrame, ASolidCylinderUnderPressureHasOneStressUpToTheAxis) {
+TEST_P(Equilibrium, ASolidCylinderUnderPressureHasOneStressUpToTheAxis) {
     HardScene s("hard/solid_cylinder", with());
     s.run();
     const PointArrays p = s.points();
@@ -91,7 +93,7 @@ TEST_P(EveryFrame, ASolidCylinderUnderPressureHasOneStressUpToTheAxis) {
     EXPECT_LT(nearest, 0.01) << "the axis is within reach of the points";
 }
 
-TEST_P(EveryFrame, ABlockThatCannotWidenFollowsTheConstrainedModulus) {
+TEST_P(Equilibrium, ABlockThatCannotWidenFollowsTheConstrainedModulus) {
     constexpr double e = 100e6, nu = 0.3, constrained = e * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
                      pressure = 100.0;
     const std::vector<Override> as_cylinder = {
@@ -113,11 +115,11 @@ TEST_P(EveryFrame, ABlockThatCannotWidenFollowsTheConstrainedModulus) {
     EXPECT_NEAR(settlement[1], settlement[0], 1e-5 * settlement[0]);
 }
 
-TEST_P(EveryFrame, LayersInTheStressOfTheirWeightStayAtRest) {
+TEST_P(Equilibrium, LayersInTheStressOfTheirWeightStayAtRest) {
     HardScene s("hard/layers_at_rest", with());
     double fastest = 0.0;
     s.run([&] { fastest = std::max(fastest, s.solver.largest_velocity()); });
-    EXPECT_GT(s.solver.steps(), 100);
+    EXPECT_GT(s.solver.steps(), has_inertia() ? 100 : 0);
     EXPECT_LT(fastest, 1e-12);
     EXPECT_NEAR(s.solver.measure("normal_force", low_y).value(),
                 2.0 * (10e3 + 9.81 * (2.5 * 1700 + 1.5 * 2100)), 1e-6);
@@ -125,11 +127,11 @@ TEST_P(EveryFrame, LayersInTheStressOfTheirWeightStayAtRest) {
 
 // ---- cylinders ----------------------------------------------------------------------------------------
 
-TEST_P(EveryFrame, ASmallPressureOpensACavityAsLameSays) {
+TEST_P(Equilibrium, ASmallPressureOpensACavityAsLameSays) {
     const Lame lame{0.02, 0.2, 1e3, 0.0, 100e6, 0.25};
     HardScene s("hard/small_pressure", with());
     s.run();
-    EXPECT_NEAR(s.last("displacement"), lame.displacement(0.02), 1e-3 * lame.displacement(0.02));
+    expect_near("Lame's displacement, m", s.last("displacement"), lame.displacement(0.02), 1e-3);
     EXPECT_NEAR(s.last("true_pressure"), 1e3, 1e-9);
     const PointArrays p = s.points();
     // of the raw points, on 40 cells
@@ -156,36 +158,41 @@ double contact_pressure(const PointArrays& p) {
     return ab[0] + ab[1] / (0.03 * 0.03);
 }
 
-class StiffnessContrast : public testing::TestWithParam<Contrast> {};
+class StiffnessContrast : public testing::TestWithParam<std::tuple<Way, Contrast>> {};
 
 TEST_P(StiffnessContrast, OpensTheCavityAndPressesTheOuterRingAsTwoLameRingsDo) {
-    const Contrast& c = GetParam();
+    const auto& [way, c] = GetParam();
     const auto mega = [](double value, const char* unit) { return std::to_string(value) + " " + unit; };
-    HardScene s("hard/stiffness_contrast", {{"materials.inner.young_modulus", mega(100.0 * c.ratio, "MPa")},
-                                            {"materials.inner.density", mega(1600.0 * c.ratio, "kg/m^3")}});
+    const double load =
+        c.ratio > 100.0 ? 1000.0 : 1.0; // 1 Pa strains the stiff ring by 1e-11: rounding shows
+    HardScene s("hard/stiffness_contrast", {{"model.frame", way.frame},
+                                            {"model.solver", way.solver},
+                                            {"materials.inner.young_modulus", mega(100.0 * c.ratio, "MPa")},
+                                            {"materials.inner.density", mega(1600.0 * c.ratio, "kg/m^3")},
+                                            {"program.pressure.1.1", mega(load, "Pa")},
+                                            {"program.pressure.2.1", mega(load, "Pa")}});
     s.run();
-    EXPECT_NEAR(s.last("displacement") / 0.02 * 1e5, c.strain, 2e-3 * c.strain); // the load is 1 Pa
-    EXPECT_NEAR(contact_pressure(s.points()) * 1e5, c.contact, 5e-3 * c.contact);
+    const double strain = s.last("displacement") / 0.02 * 1e5 / load,
+                 contact = contact_pressure(s.points()) * 1e5 / load;
+    std::printf(
+        "%-22s E1/E2 %g: strain %.6g, exact %.6g (%+.3f %%); contact pressure %.6g, exact %.6g (%+.3f %%)\n",
+        way.name().c_str(), c.ratio, strain, c.strain, 100.0 * (strain / c.strain - 1.0), contact, c.contact,
+        100.0 * (contact / c.contact - 1.0));
+    EXPECT_NEAR(strain, c.strain, 2e-3 * c.strain);
+    EXPECT_NEAR(contact, c.contact, 5e-3 * c.contact);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Rings, StiffnessContrast,
-    testing::Values(Contrast{1e-3, 0.369096, 70545.3}, Contrast{0.1, 5.04308e-3, 66539.0},
-                    Contrast{1.0, 1.26894e-3, 43883.3}, Contrast{10.0, 2.41377e-4, 9962.42},
-                    Contrast{1e3, 2.74609e-6, 115.805}),
-    [](const auto& instance) {
-        return "E" + std::to_string(std::lround(1e3 * instance.param.ratio)) + "Permille";
-    });
-
-// A wall that has moved by 10 % is 10 % larger: the same force over the initial area is another pressure.
-TEST_P(EveryFrame, TrueAndNominalPressureDifferByTheStretchOfTheWall) {
-    HardScene s("hard/fast_fahey", with());
-    s.run();
-    EXPECT_NEAR(s.last("cavity_strain"), 0.1, 1e-12);
-    EXPECT_NEAR(s.last("nominal_pressure") / s.last("true_pressure"), 1.1, 1e-12);
-    EXPECT_NEAR(s.last("true_pressure"), 597.34e3, 0.005 * 597.34e3);
-    EXPECT_NEAR(s.last("nominal_pressure"), 657.07e3, 0.005 * 657.07e3);
-}
+INSTANTIATE_TEST_SUITE_P(Rings, StiffnessContrast,
+                         testing::Combine(every_way(), testing::Values(Contrast{1e-3, 0.369096, 70545.3},
+                                                                       Contrast{0.1, 5.04308e-3, 66539.0},
+                                                                       Contrast{1.0, 1.26894e-3, 43883.3},
+                                                                       Contrast{10.0, 2.41377e-4, 9962.42},
+                                                                       Contrast{1e3, 2.74609e-6, 115.805})),
+                         [](const auto& instance) {
+                             return name_of_way({std::get<0>(instance.param), 0}) + "E" +
+                                    std::to_string(std::lround(1e3 * std::get<1>(instance.param).ratio)) +
+                                    "Permille";
+                         });
 
 } // namespace
 } // namespace gault::core::test
