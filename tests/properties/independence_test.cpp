@@ -87,8 +87,9 @@ RC_GTEST_PROP(Layout, OfPointsInMemoryChangesNoStress, ()) {
     RC_ASSERT(off <= 100 * rounding * size);
 }
 
-// A run: the stress released, between rollers that keep the walls straight.
-Bits run(const SmallScene& scene, int threads, int steps) {
+// A run: random stresses released, between rollers that keep the walls straight. The stable step is not looked for, which
+// would take most of the time.
+Bits run(const SmallScene& scene, int threads, double viscosity) {
     struct Run {
         Model model;
         ExplicitSolver solver;
@@ -101,24 +102,29 @@ Bits run(const SmallScene& scene, int threads, int steps) {
     for (const auto& [identity, slot] : slot_of)
         for (int k = 0; k < 4; ++k)
             points.columns().stress[k][slot] = 1e5 * random.uniform(-1.0, 1.0);
-    for (int n = 0; n < steps; ++n)
-        run.solver.step(0.9 * run.solver.allowed_step());
-    return bits_of(run, run.solver.motion());
+    double h = HUGE_VAL;
+    for (int k = 0; k < 2; ++k)
+        for (const double length : run.model.grid.axis(k).length())
+            h = std::min(h, length);
+    Motion& motion = run.solver.motion();
+    motion.set_viscosity({{viscosity * lame, viscosity * shear}});
+    for (int n = 0; n < 4; ++n)
+        run.solver.step(0.2 * h / std::sqrt((lame + 2.0 * shear) / 1600.0));
+    return bits_of(run, motion);
 }
 
 RC_GTEST_PROP(Threads, ChangeNoBit, ()) {
     Shape shape = random_shape(random_symmetry());
-    for (GridAxis& axis : shape.axes)
-        axis.cells = whole(3, 12);
+    shape.axes = {{{whole(3, 40), 1.0}, {whole(3, 6), 1.0}}}; // up to several batches a row of cells
     TestMaterial soil{lame, shear};
     SmallScene scene(shape);
     scene.add(soil, 1600.0);
     scene.roll({0, 1, 2, 3});
     scene.scene.solver.stress_update = coin() ? StressUpdate::usl : StressUpdate::usf;
-    scene.scene.solver.viscosity = coin() ? 0.1 : 0.0;
+    scene.scene.solver.viscosity = coin() ? 0.1 : 0.0; // the updated frame keeps strains for it
     scene.scene.solver.damping = coin() ? 0.5 : 0.0;
-    const int threads = whole(2, 4), steps = 15;
-    RC_ASSERT(same(run(scene, 1, steps), run(scene, threads, steps)));
+    const double viscosity = scene.scene.solver.viscosity;
+    RC_ASSERT(same(run(scene, 1, viscosity), run(scene, whole(2, 3), viscosity)));
 }
 
 } // namespace
