@@ -314,6 +314,31 @@ TEST_F(Bounded, AVelocityThatIsNotANumberEndsTheRun) {
     EXPECT_THROW(run.solver.step(1e-6), RunError);
 }
 
+TEST_F(Bounded, AWallThatIsReleasedIsLoadedFromItsFirstStepOn) {
+    s.scene.initial_stress.vertical = 10e3;
+    s.roll({0, 1, 2});
+    one.controls = {{"drive", "1", "", 0.0}};
+    one.constrain = [](gault_nodes& nodes) {
+        for (int64_t i = 0; i < nodes.count; ++i)
+            nodes.fixed[1][i] = nodes.control[0] == 0.0 ? 1.0 : 0.0;
+    };
+    one.load = [](gault_facets& f) {
+        for (int64_t i = 0; i < f.count; ++i)
+            f.pressure[i] = f.control[0] == 1.0 ? 10e3 : 0.0;
+    };
+    s.add(one, {3});
+    Simulation run(s);
+    std::string unit;
+    for (const double drive : {0.0, 1.0, 0.0, 1.0}) {
+        for (double* control : run.solver.boundaries().listeners("drive", high_y, unit))
+            *control = drive;
+        for (int n = 0; n < 3; ++n)
+            run.solver.step(run.solver.allowed_step());
+        EXPECT_LT(run.solver.largest_velocity(), 1e-12) << drive;
+        EXPECT_NEAR(run.solver.measure("normal_force", high_y).value(), 10e3, 1e-6) << drive;
+    }
+}
+
 TEST_F(Bounded, ARefusalNamesTheBoundaryAndItsSurfaces) {
     one.load = [](gault_facets&) {};
     one.answer = GAULT_FAILED;
