@@ -95,7 +95,7 @@ bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int 
     const auto& F = w.site.deformation;
     w.gradient_new = {step[0] * F[0] + step[1] * F[2], step[0] * F[1] + step[1] * F[3],
                       step[2] * F[0] + step[3] * F[2], step[2] * F[1] + step[3] * F[3],
-                      F[4] * radius / w.site.start_radius};
+                      grid.axisymmetric() ? F[4] * radius / w.site.start_radius : F[4]};
     return true;
 }
 

@@ -204,7 +204,7 @@ TEST(CellMean, DoesNotDependOnTheLengthOfSteps) {
 }
 
 // F and the volume ratio are those of the strains that the soil is given.
-TEST(CellMean, HandsSoilsTheGradientOfTheVolumeOfTheCell) {
+void expect_gradient_of_the_strain(VolumetricStrain volumetric_strain) {
     TestMaterial fluid(lame, 0.0), soil(lame, 0.0);
     soil.flags = GAULT_FINITE_STRAIN;
     soil.inputs = {"volume_ratio"};
@@ -226,14 +226,19 @@ TEST(CellMean, HandsSoilsTheGradientOfTheVolumeOfTheCell) {
     const std::vector<std::array<double, 4>> steps{{0.05, 0.1, -0.05, -0.05}, {0.1, 0.0, 0.1, 0.1}};
     for (const Symmetry symmetry : {Symmetry::plane_strain, Symmetry::axisymmetric}) {
         const Shape block = shape({symmetry, Frame::total, Basis::quadratic, ""});
-        const auto found = stresses(soil, block, VolumetricStrain::cell_mean, steps);
-        const auto expected = stresses(fluid, block, VolumetricStrain::cell_mean, steps);
+        const auto found = stresses(soil, block, volumetric_strain, steps);
+        const auto expected = stresses(fluid, block, volumetric_strain, steps);
         for (std::size_t i = 0; i < found.size(); i += 4) {
             ASSERT_NEAR(found[i], expected[i], 1e-12 * lame);
             ASSERT_NEAR(found[i + 1], expected[i], 1e-12 * lame);
             ASSERT_NEAR(found[i + 2], found[i + 3], 1e-12 * lame);
         }
     }
+}
+
+TEST(Equilibrium, HandsSoilsTheGradientOfTheirStrain) {
+    expect_gradient_of_the_strain(VolumetricStrain::pointwise);
+    expect_gradient_of_the_strain(VolumetricStrain::cell_mean);
 }
 
 // A block between rollers whose top goes down by a third.
