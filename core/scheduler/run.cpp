@@ -47,7 +47,8 @@ class Run {
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene), options_(options), threads_(threads_that_pay(scene.points(), options.threads)),
           simulation_(scene, threads_), verification_(scene, simulation_.columns()),
-          writer_(options.folder, options.replace, simulation_.columns(), provenance(), simulation_.points()),
+          provenance_(provenance()),
+          writer_(options.folder, options.replace, simulation_.columns(), provenance_, simulation_.points()),
           cautions_(simulation_) {}
 
     Outcome go();
@@ -72,6 +73,7 @@ class Run {
     int threads_;
     Simulation simulation_;
     Verification verification_;
+    const Provenance provenance_; // of the files as they were at the start
     ResultWriter writer_;
     RunCautions cautions_;
     int64_t frame_step_ = -1, frames_ = 0;
@@ -135,9 +137,11 @@ std::string Run::advice() {
                        scene_.solver.time_step_factor);
 }
 
-void Run::fail(const std::string& message) {
+void Run::fail(const std::string& message) try {
     summary("failed", message);
     writer_.finish();
+} catch (const std::exception& error) { // must not take the place of the reason
+    log::warn("the summary was not written: {}", error.what());
 }
 
 // What was chosen, what it was estimated to cost, and what came.
@@ -183,7 +187,7 @@ void Run::summary(const char* status, const std::string& message) {
         {"peak_memory_bytes", peak_resident_bytes()},
         {"derived", derived_},
         {"reference", reference_},
-        {"provenance", provenance().text}};
+        {"provenance", provenance_.text}};
     if (solver().stability_limit() > 0.0) s["stable_step_s"] = solver().stability_limit();
     if (!message.empty()) s["message"] = message;
     writer_.summary(s);

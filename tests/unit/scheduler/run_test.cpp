@@ -160,6 +160,21 @@ TEST_F(Running, WritesTheFramesThatAreDueAndTheLastState) {
     EXPECT_EQ(summary()["counts"]["frames"], 4); // the last state is none of them
 }
 
+TEST_F(Running, GoesOnWhenTheSceneFileIsGone) {
+    const std::filesystem::path file = folder.string() + ".yaml";
+    std::ofstream(file) << "a scene";
+    SmallScene s = column(1e-3);
+    s.scene.file = file;
+    s.scene.solver.time_step_factor = 0.05;
+    s.scene.frames = {"travel", {5e-5}};
+    program.advance = [&, advance = program.advance](gault_step& step, gault_error& e) {
+        std::filesystem::remove(file);
+        return advance(step, e);
+    };
+    EXPECT_EQ(run(s), Outcome::done);
+    EXPECT_EQ(summary()["counts"]["frames"], 2);
+}
+
 TEST_F(Running, SaysStepTimeAndPointWhenTheRunFails) {
     double limit = 0.0;
     soil.update = [&](gault_points& p, gault_error& e) {
