@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gault::core {
 namespace {
@@ -13,6 +14,14 @@ std::size_t largest_batch(const Points& points) {
     for (const Batch& batch : points.layout().batches)
         most = std::max<std::size_t>(most, static_cast<std::size_t>(batch.capacity) * page_slots);
     return most;
+}
+
+// The first of `n` slots that holds a point whose stress is not finite.
+std::optional<std::size_t> not_finite(const Points& points, std::size_t first, std::size_t n) {
+    for (std::size_t slot = first; slot < first + n; ++slot)
+        for (const Column& stress : points.columns().stress)
+            if (points.identity(slot) != no_point && !std::isfinite(stress[slot])) return slot;
+    return std::nullopt;
 }
 
 } // namespace
@@ -228,6 +237,10 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
         answer.fraction = failure.fraction;
         answer.reason = fmt::format("{}: {}", motion_.where(m, failure.slot), failure.text);
         if (failure.status != GAULT_RETRY) throw RunError(answer.reason);
+        return answer;
+    }
+    if (const auto slot = not_finite(points, first, n)) {
+        answer.reason = motion_.where(m, *slot) + ": the stress is not finite";
         return answer;
     }
     assemble(work, batch, m, tangent, internal, stiffness);

@@ -147,6 +147,7 @@ double QuasiStaticSolver::unbalanced() const {
         else
             left += std::pow(wanted_.c[k][n] - du_.c[k][n], 2);
     });
+    if (!std::isfinite(all + free + way + left)) return HUGE_VAL;
     return std::max(all > 0.0 ? std::sqrt(free / all) : 0.0, left > 0.0 ? std::sqrt(left / way) : 0.0);
 }
 

@@ -1,0 +1,59 @@
+// What Newton's method does where a correction or a soil fails.
+#include "core/solver/quasi_static.hpp"
+#include "small_scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace gault::core::test {
+namespace {
+
+constexpr double lame = 3e6, shear = 2e6, density = 1600.0; // Pa, kg/m^3
+
+Shape linear_block() {
+    return {Symmetry::plane_strain, Frame::total, Basis::linear, {1.0, 0.0}, {2.0, 1.0}};
+}
+
+std::string message(const std::function<void()>& f) {
+    try {
+        f();
+    } catch (const RunError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+struct Loaded { // a block between rollers under a pressure on its left
+    SmallScene s;
+    std::optional<Model> model;
+    std::optional<QuasiStaticSolver> solver;
+
+    Loaded(TestMaterial& soil, double pressure) : s(linear_block()) {
+        s.add(soil, density);
+        s.roll({1, 2});
+        s.press({0}, pressure);
+        s.scene.solver.strain_step = 1.0;
+        model.emplace(build_model(s.scene));
+        solver.emplace(s.scene, *model, 1);
+    }
+    std::string failure() {
+        return message([&] {
+            for (double dt = 1.0;; dt = solver->allowed_step())
+                if (solver->step(dt)) break;
+        });
+    }
+};
+
+TEST(Newton, NamesThePointWhoseStressIsNotANumber) {
+    TestMaterial soil(lame, shear);
+    soil.update = [&](gault_points& p, gault_error&) {
+        soil.elastic(p);
+        if (p.dt > 0.0) p.stress[2][3] = std::nan("");
+        return gault_status(GAULT_OK);
+    };
+    Loaded block(soil, 1e3);
+    const std::string where = block.solver->motion().where(0, 3), text = block.failure();
+    EXPECT_NE(text.find("(" + where + ": the stress is not finite)"), std::string::npos) << text;
+}
+
+} // namespace
+} // namespace gault::core::test
