@@ -50,10 +50,20 @@ struct Equilibrium::PointWork {
 
 Equilibrium::Equilibrium(Model& model, Motion& motion, VolumetricStrain volumetric_strain)
     : model_(model), motion_(motion), volumetric_strain_(volumetric_strain) {
-    std::size_t most = 0;
-    for (const Points& points : model.points) {
-        workspace_.emplace_back(largest_batch(points));
-        most = std::max(most, largest_batch(points));
+    tangent_.resize(36);
+    for (std::size_t m = 0; m < model.points.size(); ++m)
+        workspace_.emplace_back(0);
+    make_room();
+}
+
+// Batches grow where points are laid out anew.
+void Equilibrium::make_room() {
+    for (std::size_t m = 0; m < workspace_.size(); ++m) {
+        const std::size_t most = largest_batch(model_.points[m]);
+        if (workspace_[m].slots() < most) workspace_[m] = Workspace(most);
+        if (tangent_[0].size() >= most) continue;
+        for (Column& column : tangent_)
+            column.resize(most);
     }
     tangent_.assign(36, Column(most));
 }
@@ -147,6 +157,7 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
                                           Stiffness& stiffness) {
     internal.clear();
     stiffness.clear();
+    make_room();
     Answer all;
     for (int m = 0; m < static_cast<int>(model_.points.size()); ++m)
         for (const Batch& batch : model_.points[m].layout().batches) {

@@ -54,6 +54,7 @@ class Workspace {
   public:
     explicit Workspace(std::size_t slots); // of the largest batch
 
+    std::size_t slots() const { return slots_; }
     double* column(int k); // the k-th scratch column, made when first asked for
     enum Use {
         strain = 0,

@@ -241,6 +241,30 @@ TEST(Equilibrium, HandsSoilsTheGradientOfTheirStrain) {
     expect_gradient_of_the_strain(VolumetricStrain::cell_mean);
 }
 
+// Points gather in the lowest row of cells, which outgrows every batch there was.
+TEST(Equilibrium, HasRoomForPointsThatAreLaidOutAnew) {
+    TestMaterial soil(lame, shear);
+    Shape block = shape({Symmetry::plane_strain, Frame::updated, Basis::quadratic, ""});
+    block.axes[1] = {8, 1.0};
+    SmallScene s{block};
+    s.add(soil, density);
+    Body body(s.scene);
+    prestress(body);
+    Equilibrium before(body.model, *body.motion);
+    const int version = body.model.points[0].version();
+    body.motion->arrive(body.field([](double, double y) { return std::array{0.0, y * y * y - y}; }), 1.0);
+    ASSERT_GT(body.model.points[0].version(), version);
+    Equilibrium anew(body.model, *body.motion);
+    const VectorField du = shaken(body.layout(), 1e-4, 3);
+    const auto start = body.motion->save();
+    std::array<VectorField, 2> internal{VectorField(body.layout()), VectorField(body.layout())};
+    std::array<Stiffness, 2> stiffness{Stiffness(body.model.grid), Stiffness(body.model.grid)};
+    ASSERT_TRUE(before.evaluate(*start, du, {1.0, 1.0}, 1.0, internal[0], stiffness[0]).found);
+    ASSERT_TRUE(anew.evaluate(*start, du, {1.0, 1.0}, 1.0, internal[1], stiffness[1]).found);
+    EXPECT_EQ(internal[0].c, internal[1].c);
+    EXPECT_EQ((stiffness[0].matrix() - stiffness[1].matrix()).norm(), 0.0);
+}
+
 // A block between rollers whose top goes down by a third.
 struct Squeezed {
     TestMaterial soil{lame, shear};
