@@ -226,6 +226,7 @@ gault_status differentiate(const Material& material, const Call& whole, std::siz
     Call shifted = whole;
     std::vector<Column> stress(6, Column(n)), state(material.state_components(), Column(n)),
         moved(9, Column(n));
+    Column moved_strain(n);
     std::vector<double*> states;
     for (int k = 0; k < 6; ++k)
         shifted.p.stress[k] = stress[k].data();
@@ -234,8 +235,8 @@ gault_status differentiate(const Material& material, const Call& whole, std::siz
     shifted.p.state = states.data();
     for (int column = 0; column < tangent_columns; ++column) {
         const double* strain = whole.p.strain[column];
-        std::transform(strain, strain + n, moved[0].begin(), [](double e) { return e + shift; });
-        shifted.p.strain[column] = moved[0].data();
+        std::transform(strain, strain + n, moved_strain.begin(), [](double e) { return e + shift; });
+        shifted.p.strain[column] = moved_strain.data();
         if (whole.p.F_new[0]) {
             const auto [i, j] = pair[column];
             for (int k = 0; k < 9; ++k)

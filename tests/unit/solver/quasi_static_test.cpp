@@ -265,6 +265,36 @@ TEST(Equilibrium, HasRoomForPointsThatAreLaidOutAnew) {
     EXPECT_EQ((stiffness[0].matrix() - stiffness[1].matrix()).norm(), 0.0);
 }
 
+// The strain grows by 1e-8 in one component at a time, and F as it does.
+TEST(Equilibrium, DifferentiatesWithTheStrainThatItSays) {
+    TestMaterial soil(lame, shear);
+    soil.flags = GAULT_FINITE_STRAIN;
+    std::vector<std::array<double, 8>> seen; // strain, and F xx yy zz xy, of the first point of a batch
+    soil.update = [&](gault_points& p, gault_error&) {
+        seen.push_back({p.strain[0][0], p.strain[1][0], p.strain[2][0], p.strain[3][0], p.F_new[0][0],
+                        p.F_new[4][0], p.F_new[8][0], p.F_new[1][0]});
+        return soil.elastic(p);
+    };
+    SmallScene s{shape({Symmetry::plane_strain, Frame::total, Basis::quadratic, ""})};
+    s.add(soil, density);
+    Body body(s.scene);
+    Equilibrium equilibrium(body.model, *body.motion);
+    Stiffness stiffness(body.model.grid);
+    VectorField internal(body.layout());
+    const auto start = body.motion->save();
+    const VectorField du = body.field([](double x, double y) { return std::array{0.1 * x, -0.2 * y}; });
+    seen.clear();
+    ASSERT_TRUE(equilibrium.evaluate(*start, du, {1.0, 1.0}, 1.0, internal, stiffness).found);
+    ASSERT_GE(seen.size(), 5u);
+    const double gradient[4] = {1.1, 0.8, 1.0, 0.8}; // what multiplies the shift
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double shift = k == column ? 1e-8 : 0.0;
+            EXPECT_NEAR(seen[column + 1][k] - seen[0][k], shift, 1e-15) << column << k;
+            EXPECT_NEAR(seen[column + 1][k + 4] - seen[0][k + 4], shift * gradient[k], 1e-15) << column << k;
+        }
+}
+
 // A block between rollers whose top goes down by a third.
 struct Squeezed {
     TestMaterial soil{lame, shear};
