@@ -246,7 +246,7 @@ struct Pressuremeter {
         return phases[static_cast<std::size_t>(step.memory(phase_number))];
     }
     std::optional<Part> present(gault::Step& step) const {
-        const Setting setting{step.measure(initial_radius), rate, strain_rate};
+        const Setting setting{step.measure(initial_radius), step.time(), rate, strain_rate};
         const int number = static_cast<int>(step.memory(part_number));
         return std::visit(
             [&](const auto& one) { return one.part(number, setting, phase_origin(step), part_origin(step)); },
@@ -311,6 +311,7 @@ struct Pressuremeter {
                 next = std::min(next, at);
         if (step.repeatable() && row_strain && part.drive == Part::Drive::wall && part.rate != 0.0)
             next = std::min(next, next_row(part, now, a0));
+        next = std::max(next, now.time + resolved(now.time));
         step.stop_at(next);
         const double dt = std::min(step.next_dt(), next - now.time);
         if (part.drive == Part::Drive::wall) {
