@@ -27,7 +27,8 @@ class Boundaries {
     Boundaries(const Scene& scene, const Motion& motion,
                const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
 
-    // Prescribed components at `time`; `value` has a meaning where they are. Throws InputError when two conditions contradict each other.
+    // Prescribed components at `time`; `value` has a meaning where they are, if dt is not 0. Throws InputError
+    // when two conditions contradict each other.
     void constrain(const Motion& motion, double time, double dt, FixedField& fixed, VectorField& value);
     // Nodal forces from surface loads at the present positions; only nodes of the sides are written.
     // `stiffness`, if any, += -d(force)/d(displacement).
@@ -81,7 +82,7 @@ class Boundaries {
     void hold(Condition& condition, const Motion& motion);
     void prepare_load(Condition& condition,
                       const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
-    void impose(const Condition& condition, int surface, const Held& held, FixedField& fixed,
+    void impose(const Condition& condition, int surface, const Held& held, bool moves, FixedField& fixed,
                 VectorField& value) const;
     [[noreturn]] void refuse(const Condition& condition, gault_status status, const gault_error& error) const;
 

@@ -307,6 +307,21 @@ TEST_F(Bounded, TwoConditionsThatContradictAreAnErrorBeforeTheFirstStep) {
                                                    "prescribes 0.25 m/s");
 }
 
+// Before the first step dt is 0, and so is the way left.
+TEST_F(Bounded, AWallMayBeDrivenToADisplacement) {
+    const auto wanted = [](double time) { return 0.1 * time; };
+    one.constrain = [&](gault_nodes& nodes) {
+        for (int64_t i = 0; i < nodes.count; ++i) {
+            nodes.fixed[1][i] = 1.0;
+            nodes.velocity[1][i] = (wanted(nodes.time) - nodes.displacement[1][i]) / nodes.dt;
+        }
+    };
+    s.add(one, {3});
+    Simulation run(s);
+    run.to(1e-3);
+    EXPECT_NEAR(run.solver.measure("displacement", high_y).value(), -wanted(1e-3), 1e-15);
+}
+
 TEST_F(Bounded, AVelocityThatIsNotANumberEndsTheRun) {
     one.constrain = [](gault_nodes& nodes) { moving(nodes.time > 0.0 ? std::nan("") : 0.0)(nodes); };
     s.add(one, {0});
