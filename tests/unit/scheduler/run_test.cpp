@@ -384,6 +384,27 @@ TEST_F(Running, CheckingSaysWhatTheSceneTookHoldOf) {
     EXPECT_TRUE(said.back().starts_with("stable step ")) << said.back();
 }
 
+TEST_F(Running, StatesHaveOneShapeAndNamesOfTheirOwn) {
+    TestMaterial rock(lame, shear);
+    const auto refusal = [&](gault_state one, gault_state other) {
+        soil.states = {one};
+        rock.states = {other};
+        SmallScene s = column(1e-3);
+        s.add(rock, density, "rock");
+        return message([&] { check_scene(s.scene); });
+    };
+    const gault_state age{"age", "s", "", GAULT_SCALAR, 0, 0.0, 0.0, 1.0};
+    gault_state fabric = age, stress = age;
+    fabric.shape = GAULT_SYMMETRIC;
+    stress.name = "stress";
+    EXPECT_EQ(refusal(age, age), "");
+    EXPECT_EQ(refusal(age, fabric), "scene.yaml:7:3: material 'rock' has the state 'age' with 6 components, "
+                                    "material 'soil' with 1");
+    EXPECT_EQ(
+        refusal(age, stress),
+        "scene.yaml:7:3: material 'rock' has the state 'stress', a dataset that every frame has already");
+}
+
 TEST_F(Running, CollectedPointsAreInTheOrderOfTheirIdentity) {
     for (const Frame frame : {Frame::total, Frame::updated}) {
         soil.states = {{"amount", "1", "", GAULT_SCALAR, 0, 0.25, 0.0, 1.0}};
