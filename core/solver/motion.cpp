@@ -149,11 +149,11 @@ void Motion::elastic_stress(const std::array<Column, 2>& moduli, const Task& tas
 
 void Motion::settle(const std::vector<Outcome>& outcomes) {
     largest_strain_ = 0.0;
+    updates_ += static_cast<int64_t>(point_count());
     for (std::size_t t = 0; t < outcomes.size(); ++t) {
         const auto& [strain, failure] = outcomes[t];
         const Task& task = tasks_[t];
         const Batch& batch = points_[task.material].layout().batches[task.batch];
-        updates_ += points_[task.material].layout().batches[task.batch].pages * page_slots;
         if (strain.bad >= 0) {
             const std::size_t slot = static_cast<std::size_t>(batch.first_page) * page_slots +
                                      static_cast<std::size_t>(strain.bad);

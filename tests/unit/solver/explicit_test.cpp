@@ -194,6 +194,18 @@ TEST_P(EverySolver, ScalesInertiaAndNotWeight) {
     EXPECT_NEAR(run.solver.largest_velocity(), 2.0 * 1e-4, 1e-15);
 }
 
+TEST_P(EverySolver, CountsUpdatesOfPointsAndNotOfEmptySlots) {
+    for (const int per_cell : {1, 4, 16}) {
+        Shape form = shape();
+        form.per_cell = per_cell;
+        SmallScene s = scene(form);
+        Simulation run(s);
+        for (int n = 0; n < 3; ++n)
+            run.solver.step(run.solver.allowed_step());
+        EXPECT_EQ(run.solver.updates(), 3 * 4 * 3 * per_cell);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Frames, EverySolver,
                          testing::Values(std::tuple(Frame::total, StressUpdate::usl),
                                          std::tuple(Frame::updated, StressUpdate::usl),
