@@ -55,6 +55,7 @@ class Run {
 
   private:
     Provenance provenance() const;
+    double share_done();
     void step_on(Progress& progress);
     void finish();
     void frames_due(bool last);
@@ -219,6 +220,12 @@ void Run::report() {
     log::info("results in {}", writer_.folder().string());
 }
 
+// By the steps that the run was estimated to take: a program tells its next event, not its end.
+double Run::share_done() {
+    const auto steps = options_.plan.value("/estimate/steps"_json_pointer, nlohmann::json());
+    return steps.is_number() ? static_cast<double>(solver().steps()) / steps.get<double>() : std::nan("");
+}
+
 void Run::step_on(Progress& progress) {
     if (simulation_.step() == Simulation::Moved::yes) {
         if (simulation_.row_due()) {
@@ -229,7 +236,7 @@ void Run::step_on(Progress& progress) {
     }
     if (!progress.due(solver().steps())) return;
     const Program& program = simulation_.program();
-    progress.show({solver().steps(), solver().time(), simulation_.next_event(),
+    progress.show({solver().steps(), solver().time(), share_done(),
                    program.columns().empty()
                        ? ""
                        : fmt::format("{} {:.4g}", program.columns()[0].name, program.record()[0])});
