@@ -334,6 +334,25 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
 
 } // namespace
 
+namespace {
+
+// A fluid has no shear modulus.
+void check_moduli(const Material& material, const Points& points, const Column& modulus,
+                  const Column& shear) {
+    const auto refuse = [&](std::size_t slot, const char* which, double value, const char* wanted) {
+        throw RunError(fmt::format("material '{}': point {} has the {} modulus {:g} Pa; it must be {}",
+                                   material.name(), points.identity(slot), which, value, wanted));
+    };
+    points.each_point([&](std::size_t slot) {
+        if (!(modulus[slot] > 0.0) || !std::isfinite(modulus[slot]))
+            refuse(slot, "P-wave", modulus[slot], "positive and finite");
+        if (!(shear[slot] >= 0.0) || !std::isfinite(shear[slot]))
+            refuse(slot, "shear", shear[slot], "finite and not negative");
+    });
+}
+
+} // namespace
+
 void evaluate_moduli(const Material& material, Points& points, const GridView& grid,
                      const Deformation& deformation, double time, Column& modulus, Column& shear) {
     modulus.resize(points.slots());
@@ -353,6 +372,7 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
         [&](gault_points& p, gault_error& error) {
             return material.api().update(material.instance().self(), &p, &error);
         });
+    check_moduli(material, points, modulus, shear);
 }
 
 void start_material(const Material& material, Points& points, const GridView& grid) {

@@ -109,7 +109,7 @@ inline std::array<double, 5> undeformed(std::size_t) {
 }
 
 // The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` get points.slots()
-// entries.
+// entries. RunError where they are not those of a soil or a fluid.
 void evaluate_moduli(const Material& material, Points& points, const GridView& grid,
                      const Deformation& deformation, double time, Column& modulus, Column& shear);
 
