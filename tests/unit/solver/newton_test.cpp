@@ -55,5 +55,31 @@ TEST(Newton, NamesThePointWhoseStressIsNotANumber) {
     EXPECT_NE(text.find("(" + where + ": the stress is not finite)"), std::string::npos) << text;
 }
 
+// One point of a fluid feels the sum of two free displacements alone.
+TEST(Newton, SaysThatTheStiffnessIsSingular) {
+    TestMaterial fluid(lame, 0.0);
+    TestBoundary top;
+    top.constrain = [](gault_nodes& nodes) {
+        for (int64_t i = 0; i < nodes.count; ++i) {
+            nodes.fixed[1][i] = 1.0;
+            nodes.velocity[1][i] = -0.01;
+        }
+    };
+    Shape block = linear_block();
+    block.axes = {{{1, 1.0}, {1, 1.0}}};
+    block.per_cell = 1;
+    SmallScene s{block};
+    s.add(fluid, density);
+    s.roll({1, 2});
+    s.add(top, {3});
+    Model model = build_model(s.scene);
+    QuasiStaticSolver solver(s.scene, model, 1);
+    const std::string text = message([&] {
+        for (double dt = 1.0; !solver.step(dt); dt = solver.allowed_step()) {
+        }
+    });
+    EXPECT_NE(text.find("(the stiffness matrix is singular)"), std::string::npos) << text;
+}
+
 } // namespace
 } // namespace gault::core::test
