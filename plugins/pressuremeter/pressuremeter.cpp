@@ -261,7 +261,8 @@ struct Pressuremeter {
                 "a pressuremeter opens a cavity; the radius of this surface falls as the wall "
                 "moves into the soil");
         double share = 1.0;
-        if (!step.repeatable() || step.dt() <= 1e-12 * longest(part, before)) return share;
+        if (!step.repeatable() || step.dt() <= 1e-12 * longest(part, before, step.measure(initial_radius)))
+            return share;
         for (const Event& event : part.ends)
             if (event.overshot(now))
                 share = std::min(share, event.left(before) / (event.left(before) - event.left(now)));
@@ -269,9 +270,9 @@ struct Pressuremeter {
     }
 
     // s, over which a part may change much.
-    static double longest(const Part& part, const State& now) {
+    static double longest(const Part& part, const State& now, double a0) {
         if (part.rate == 0.0) return gault::infinity;
-        return part.drive == Part::Drive::wall ? 0.05 * (1.0 + now.strain) / std::abs(part.rate)
+        return part.drive == Part::Drive::wall ? 0.05 * (1.0 + now.strain) * a0 / std::abs(part.rate)
                                                : std::max(std::abs(now.pressure), 1e4) / std::abs(part.rate);
     }
 
@@ -343,7 +344,7 @@ struct Pressuremeter {
     // What the last step tells of the time of the next event; with inertia steps are too short to tell.
     static double next_event(const gault::Step& step, const Part& part, const State& before, const State& now,
                              double began) {
-        double next = now.time + longest(part, now);
+        double next = now.time + longest(part, now, step.measure(initial_radius));
         const double dt = now.time - std::max(before.time, began);
         const bool sent_there = part.drive == Part::Drive::wall;
         for (const Event& event : part.ends) {

@@ -284,6 +284,18 @@ TEST(PressuremeterPhases, MeetAStrainAfterALongTime) {
         }
 }
 
+// Steps without inertia go no further than a twentieth of the radius at once.
+TEST(Pressuremeter, LooksAheadByATwentiethOfTheRadius) {
+    for (const Settings& speed : {Settings{{"rate", 1e-3}}, Settings{{"strain_rate", 0.05}}}) {
+        Settings settings = speed;
+        settings["until"] = std::vector<Record>{{"pressure", {{"value", 1e6}}}};
+        const Component c = program(settings);
+        Cavity cavity(c, true);
+        cavity.step(1e9);
+        EXPECT_NEAR(cavity.run.next, 1.0, 1e-9); // 1 mm
+    }
+}
+
 TEST(PressuremeterPhases, LoopReturnsToWhereItBegan) {
     for (const char* amplitude : {"strain_amplitude", "pressure_amplitude"}) {
         const double fall = std::string(amplitude) == "strain_amplitude" ? 0.005 : 5e3;
