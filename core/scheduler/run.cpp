@@ -130,6 +130,9 @@ void Run::frames_due(bool last) {
 }
 
 std::string Run::advice() {
+    if (solver().repeatable())
+        return fmt::format("try a smaller solver.strain_step (now {:g}) or a gentler load",
+                           scene_.solver.strain_step);
     if (scene_.solver.time_step_factor > 1.0)
         return fmt::format(
             "solver.time_step_factor is {:g}: above 1 the step exceeds the stability limit of {:.4g} s",

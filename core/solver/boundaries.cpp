@@ -119,7 +119,7 @@ void Boundaries::refuse(const Condition& condition, gault_status status, const g
     throw RunError(fmt::format("boundary '{}' on {}: {}{}", condition.instance.declaration().name,
                                fmt::join(condition.names, ", "),
                                text.empty() ? "no result and no reason" : text,
-                               status == GAULT_RETRY ? " (an explicit step cannot be repeated)" : ""));
+                               status == GAULT_RETRY ? " (a boundary cannot ask for a shorter step)" : ""));
 }
 
 void Boundaries::constrain(const Motion& motion, double time, double dt, FixedField& fixed,

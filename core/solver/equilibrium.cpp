@@ -1,7 +1,5 @@
 #include "core/solver/equilibrium.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -65,7 +63,6 @@ void Equilibrium::make_room() {
         for (Column& column : tangent_)
             column.resize(most);
     }
-    tangent_.assign(36, Column(most));
 }
 
 bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int material, std::size_t slot,
@@ -246,7 +243,7 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
                                                view_of(motion_.grid()), tangent);
     if (failure.status != GAULT_OK) {
         answer.fraction = failure.fraction;
-        answer.reason = fmt::format("{}: {}", motion_.where(m, failure.slot), failure.text);
+        answer.reason = motion_.sentence(m, failure);
         if (failure.status != GAULT_RETRY) throw RunError(answer.reason);
         return answer;
     }

@@ -283,8 +283,8 @@ UpdateFailure update_batch(const Material& material, Points& points, const std::
             status = update_in_pieces(material, whole, n, pieces, error);
     }
     if (status == GAULT_OK) return {};
-    const std::size_t slot =
-        first + static_cast<std::size_t>(std::clamp<int64_t>(error.point, 0, static_cast<int64_t>(n) - 1));
+    std::optional<std::size_t> slot;
+    if (error.point >= 0) slot = first + std::min(static_cast<std::size_t>(error.point), n - 1);
     return {status, slot,
             status == GAULT_RETRY && !tangent ? "the step had to be divided more than 1024 times"
                                               : error_text(error),

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -84,7 +85,7 @@ struct Moment { // of a constitutive update
 
 struct UpdateFailure {
     gault_status status = GAULT_OK;
-    std::size_t slot = 0;
+    std::optional<std::size_t> slot; // nothing: the model named no point
     std::string text;
     double fraction = 0.5; // of the step that is worth trying, where the status is RETRY
 };

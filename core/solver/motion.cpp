@@ -162,10 +162,7 @@ void Motion::settle(const std::vector<Outcome>& outcomes) {
                 "inside out",
                 where(task.material, slot), strain_limit));
         }
-        if (failure.status != GAULT_OK)
-            throw RunError(
-                fmt::format("{}: {}", where(task.material, failure.slot),
-                            failure.text.empty() ? "the model gave no result and no reason" : failure.text));
+        if (failure.status != GAULT_OK) throw RunError(sentence(task.material, failure));
         largest_strain_ = std::max(largest_strain_, strain.largest);
     }
 }
@@ -181,6 +178,14 @@ std::string Motion::where(int material, std::size_t slot) const {
     const PointRecord at = record(material, slot);
     return fmt::format("point {} of '{}' at ({:.6g}, {:.6g}) m", points_[material].identity(slot),
                        materials_[material].name(), at.position[0], at.position[1]);
+}
+
+std::string Motion::sentence(int material, const UpdateFailure& failure) const {
+    const std::string who = failure.slot ? where(material, *failure.slot)
+                                         : fmt::format("material '{}'", materials_[material].name());
+    const char* silence = failure.status == GAULT_RETRY ? "the step was too long, and no reason was given"
+                                                        : "the model gave no result and no reason";
+    return fmt::format("{}: {}", who, failure.text.empty() ? silence : failure.text);
 }
 
 } // namespace gault::core

@@ -55,6 +55,18 @@ TEST(Newton, NamesThePointWhoseStressIsNotANumber) {
     EXPECT_NE(text.find("(" + where + ": the stress is not finite)"), std::string::npos) << text;
 }
 
+TEST(Newton, NamesNoPointWhereTheSoilNamesNone) {
+    TestMaterial soil(lame, shear);
+    soil.update = [&](gault_points& p, gault_error&) {
+        return p.dt == 0.0 ? soil.elastic(p) : gault_status(GAULT_RETRY);
+    };
+    Loaded block(soil, 1e3);
+    const std::string text = block.failure();
+    EXPECT_NE(text.find("(material 'soil': the step was too long, and no reason was given)"),
+              std::string::npos)
+        << text;
+}
+
 // One point of a fluid feels the sum of two free displacements alone.
 TEST(Newton, SaysThatTheStiffnessIsSingular) {
     TestMaterial fluid(lame, 0.0);
