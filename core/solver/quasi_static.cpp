@@ -9,7 +9,7 @@
 namespace gault::core {
 namespace {
 
-constexpr int most_iterations = 20, most_halvings = 6;
+constexpr int most_iterations = 20, most_halvings = 5;
 constexpr double shortest = 1e-9; // step, over the longest tried
 constexpr double growth = 10.0;   // of a step over the one before
 
@@ -131,6 +131,8 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::evaluate(const Moment& moment) {
         reason_ = answer.reason;
         return answer.reason.empty() && answer.largest_strain > limit ? Outcome::strained : Outcome::diverged;
     }
+    fraction_ = 0.25; // unless something else fails after this
+    reason_ = "Newton's method did not converge";
     motion_->attempt(*start_, du_);
     boundaries_.load(*motion_, moment.time, moment.dt, still_, traction_, &stiffness_);
     return Outcome::balanced;
@@ -152,8 +154,6 @@ double QuasiStaticSolver::unbalanced() const {
 }
 
 QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
-    fraction_ = 0.25;
-    reason_ = "Newton's method did not converge";
     Outcome outcome = evaluate(moment);
     if (outcome != Outcome::balanced) return outcome;
     double error = unbalanced();

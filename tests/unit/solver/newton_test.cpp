@@ -67,6 +67,26 @@ TEST(Newton, NamesNoPointWhereTheSoilNamesNone) {
         << text;
 }
 
+// The soil becomes stiffer: the first correction goes too far, where the soil has no answer.
+TEST(Newton, TakesAPartOfACorrectionThatGoesTooFar) {
+    TestMaterial soil(lame, 0.0);
+    const double modulus = 1e6, bend = 100.0, farthest = 0.2;
+    soil.update = [&](gault_points& p, gault_error&) {
+        soil.elastic(p);
+        for (int64_t i = 0; i < p.count; ++i)
+            for (int k = 0; k < 4; ++k) {
+                const double e = p.strain[k][i];
+                if (std::abs(e) > farthest) return gault_status(GAULT_RETRY);
+                p.stress[k][i] = p.stress_old[k][i] + modulus * (e + bend * e * e * e);
+            }
+        return gault_status(GAULT_OK);
+    };
+    Loaded block(soil, 0.3 * modulus);
+    ASSERT_TRUE(block.solver->step(1.0));
+    EXPECT_EQ(block.solver->allowed_step() > 0.0, true);
+    EXPECT_NEAR(block.model->points[0].columns().stress[0][0], -0.3 * modulus, 1e-3 * modulus);
+}
+
 // One point of a fluid feels the sum of two free displacements alone.
 TEST(Newton, SaysThatTheStiffnessIsSingular) {
     TestMaterial fluid(lame, 0.0);
