@@ -49,8 +49,8 @@ class Boundaries {
     // holds its neighbour, and a uniform pressure on two held parts is shared exactly.
     double share(int surface, std::size_t k, const FixedField& fixed) const;
 
-    // A control named `name` on a surface (any if nullopt): sets every listener, returns how many there
-    // are; `unit` gets the unit of a listener.
+    // Where the listeners of a control named `name` on a surface (any if nullopt) keep it; `unit` gets the
+    // unit of a listener.
     std::vector<double*> listeners(const std::string& name, std::optional<int> surface, std::string& unit);
     std::vector<std::string> control_names(std::optional<int> surface) const;
 
