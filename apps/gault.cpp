@@ -129,7 +129,7 @@ int failed(int status, const std::string& what) {
 } // namespace
 
 int main(int count, char** words) {
-    spdlog::set_default_logger(spdlog::stderr_logger_st("gault"));
+    spdlog::set_default_logger(spdlog::stderr_logger_mt("gault"));
     spdlog::set_pattern("%v");
     try {
         const int status = dispatch(count, words);

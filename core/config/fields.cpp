@@ -31,8 +31,8 @@ bool one_line(const std::string& text) {
 
 std::string Bounds::text(const std::string& unit) const {
     const std::string suffix = unit.empty() || unit == "1" ? "" : " " + unit;
-    const std::string low = (min_open ? "more than " : "at least ") + fmt::format("{:g}", min) + suffix;
-    const std::string high = (max_open ? "less than " : "at most ") + fmt::format("{:g}", max) + suffix;
+    const std::string low = (min_open ? "more than " : "at least ") + fmt::format("{:.10g}", min) + suffix;
+    const std::string high = (max_open ? "less than " : "at most ") + fmt::format("{:.10g}", max) + suffix;
     if (min == -HUGE_VAL) return max == HUGE_VAL ? "a number" : high;
     return max == HUGE_VAL ? low : low + " and " + high;
 }

@@ -141,8 +141,9 @@ void read_model(const Source& source, Scene& scene) {
                                SolverKind::explicit_dynamics, "nothing is assumed about inertia");
     scene.volumetric_strain = choose(scene, fields, "volumetric_strain", {"pointwise", "cell_mean"},
                                      VolumetricStrain::pointwise, "the strain of every point is its own");
+    // A solver that is chosen later is written then.
     if (scene.volumetric_strain == VolumetricStrain::cell_mean &&
-        scene.solver.kind == SolverKind::explicit_dynamics)
+        scene.solver.kind == SolverKind::explicit_dynamics && !is_auto(fields.find("solver")))
         throw InputError(fields.require("volumetric_strain").where(),
                          "model.volumetric_strain: the explicit solver has it pointwise only; take "
                          "model.solver: quasi_static");

@@ -38,7 +38,7 @@ std::string table(const std::string& title, const std::vector<Row>& rows) {
 std::string number(const gault_parameter& p, double value) {
     if (p.unit && p.unit == std::string_view("rad") && value != 0.0)
         return fmt::format("{:g} deg", value * 180.0 / std::numbers::pi);
-    return fmt::format("{:g}", value);
+    return p.type == GAULT_INTEGER ? fmt::format("{:.0f}", value) : fmt::format("{:g}", value);
 }
 
 std::string bounds(const gault_parameter& p) {

@@ -51,6 +51,20 @@ std::vector<BenchReport::Phase> phases(const PhaseClock& clock, double seconds) 
     return all;
 }
 
+struct Timed { // steps: all of them, until the last part of the program's time begins
+    int64_t first = 0;
+    std::vector<double> before; // first state of the points then
+    std::chrono::steady_clock::time_point start;
+
+    void begin(Solver& solver) {
+        first = solver.steps();
+        before = first_state(solver.motion());
+        solver.motion().clock() = {};
+        solver.motion().clock().on = true;
+        start = std::chrono::steady_clock::now();
+    }
+};
+
 } // namespace
 
 BenchReport bench_scene(const Scene& scene, int threads, double share) {
@@ -62,31 +76,29 @@ BenchReport bench_scene(const Scene& scene, int threads, double share) {
     BenchReport report{};
     report.points = simulation.points();
     report.curve_error = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> before;
-    std::chrono::steady_clock::time_point start;
-    int64_t first = -1;
+    Timed timed;
     simulation.start();
     rows.push_back(simulation.row());
+    timed.begin(solver);
+    bool last_part = false;
     while (!simulation.done()) {
-        if (first < 0 && solver.time() >= (1.0 - share) * simulation.next_event()) {
-            first = solver.steps();
-            before = first_state(solver.motion());
-            solver.motion().clock() = {};
-            solver.motion().clock().on = true;
-            start = std::chrono::steady_clock::now();
+        if (!last_part && solver.time() >= (1.0 - share) * simulation.next_event()) {
+            timed.begin(solver);
+            last_part = true;
         }
         if (simulation.step() == Simulation::Moved::yes && simulation.row_due())
             rows.push_back(simulation.row());
     }
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report.steps = solver.steps() - first;
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - timed.start).count();
+    report.steps = solver.steps() - timed.first;
     report.point_steps =
         static_cast<double>(report.steps) * static_cast<double>(report.points) / report.seconds;
-    report.changing = changed(before, first_state(solver.motion()), report.points);
+    report.changing = changed(timed.before, first_state(solver.motion()), report.points);
     report.phases = phases(solver.motion().clock(), report.seconds);
     report.bytes_per_point = column_bytes(solver.motion());
     const nlohmann::json errors = verification.finish(rows);
-    if (errors.contains("curves")) report.curve_error = errors["curves"][0]["largest_relative_error"];
+    if (errors.contains("curves"))
+        report.curve_error = errors["curves"][0].value("largest_relative_error", report.curve_error);
     return report;
 }
 

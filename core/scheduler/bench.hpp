@@ -22,7 +22,7 @@ struct BenchReport {
 };
 
 // Runs the scene to the end of its program without writing results; times the steps of the last `share` of
-// the program's time.
+// the program's time, or all of them where the program does not tell its end.
 BenchReport bench_scene(const Scene& scene, int threads, double share);
 
 // Peak resident memory, bytes, of a process of its own that builds the scene and makes a few steps.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <unistd.h>
@@ -38,20 +39,22 @@ void Progress::show(const State& state) {
     const auto now = std::chrono::steady_clock::now();
     const double rate =
         static_cast<double>(state.step - last_step_) * static_cast<double>(points_) / seconds(now - last_);
-    const double done =
-        std::isfinite(state.end) && state.end > 0.0 ? std::min(1.0, state.time / state.end) : 0.0;
+    const bool known = std::isfinite(state.share);
+    const double done = known ? std::clamp(state.share, 0.0, 1.0) : 0.0;
     const std::string left =
         done > 0.0 ? duration_text(seconds(now - start_) * (1.0 - done) / done) + " left" : "";
     const std::string text = fmt::format("step {}  t = {:.4g} s  {}  {:.1f} M point-steps/s  {}", state.step,
                                          state.time, state.measure, rate * 1e-6, left);
+    constexpr std::size_t width = 24;
+    const auto full = static_cast<std::size_t>(done * width);
+    const std::string percent = known ? fmt::format("{:3.0f} %  ", 100.0 * done) : "";
     if (terminal_) {
-        constexpr int width = 24;
-        const int full = static_cast<int>(done * width);
-        std::fprintf(stderr, "\r\x1b[K[%s%s] %3.0f %%  %s", std::string(full, '#').c_str(),
-                     std::string(width - full, '.').c_str(), 100.0 * done, text.c_str());
+        const std::string bar =
+            known ? "[" + std::string(full, '#') + std::string(width - full, '.') + "] " : "";
+        std::fprintf(stderr, "\r\x1b[K%s%s%s", bar.c_str(), percent.c_str(), text.c_str());
         std::fflush(stderr);
     } else {
-        log::info("{:3.0f} %  {}", 100.0 * done, text);
+        log::info("{}{}", percent, text);
     }
     last_ = now;
     last_step_ = state.step;

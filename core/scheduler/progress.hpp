@@ -13,7 +13,7 @@ class Progress {
 
     struct State {
         int64_t step;
-        double time, end;    // s; end infinite if unknown
+        double time, share;  // s; of the run that is done, NaN if unknown
         std::string measure; // "cavity strain 2.31 %", or empty
     };
     bool due(int64_t step); // cheap; true a few times a second

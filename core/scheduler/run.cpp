@@ -47,13 +47,15 @@ class Run {
     Run(const Scene& scene, const RunOptions& options)
         : scene_(scene), options_(options), threads_(threads_that_pay(scene.points(), options.threads)),
           simulation_(scene, threads_), verification_(scene, simulation_.columns()),
-          writer_(options.folder, options.replace, simulation_.columns(), provenance(), simulation_.points()),
+          provenance_(provenance()),
+          writer_(options.folder, options.replace, simulation_.columns(), provenance_, simulation_.points()),
           cautions_(simulation_) {}
 
     Outcome go();
 
   private:
     Provenance provenance() const;
+    double share_done();
     void step_on(Progress& progress);
     void finish();
     void frames_due(bool last);
@@ -72,6 +74,7 @@ class Run {
     int threads_;
     Simulation simulation_;
     Verification verification_;
+    const Provenance provenance_; // of the files as they were at the start
     ResultWriter writer_;
     RunCautions cautions_;
     int64_t frame_step_ = -1, frames_ = 0;
@@ -127,6 +130,9 @@ void Run::frames_due(bool last) {
 }
 
 std::string Run::advice() {
+    if (solver().repeatable())
+        return fmt::format("try a smaller solver.strain_step (now {:g}) or a gentler load",
+                           scene_.solver.strain_step);
     if (scene_.solver.time_step_factor > 1.0)
         return fmt::format(
             "solver.time_step_factor is {:g}: above 1 the step exceeds the stability limit of {:.4g} s",
@@ -135,9 +141,11 @@ std::string Run::advice() {
                        scene_.solver.time_step_factor);
 }
 
-void Run::fail(const std::string& message) {
+void Run::fail(const std::string& message) try {
     summary("failed", message);
     writer_.finish();
+} catch (const std::exception& error) { // must not take the place of the reason
+    log::warn("the summary was not written: {}", error.what());
 }
 
 // What was chosen, what it was estimated to cost, and what came.
@@ -183,7 +191,7 @@ void Run::summary(const char* status, const std::string& message) {
         {"peak_memory_bytes", peak_resident_bytes()},
         {"derived", derived_},
         {"reference", reference_},
-        {"provenance", provenance().text}};
+        {"provenance", provenance_.text}};
     if (solver().stability_limit() > 0.0) s["stable_step_s"] = solver().stability_limit();
     if (!message.empty()) s["message"] = message;
     writer_.summary(s);
@@ -215,6 +223,12 @@ void Run::report() {
     log::info("results in {}", writer_.folder().string());
 }
 
+// By the steps that the run was estimated to take: a program tells its next event, not its end.
+double Run::share_done() {
+    const auto steps = options_.plan.value("/estimate/steps"_json_pointer, nlohmann::json());
+    return steps.is_number() ? static_cast<double>(solver().steps()) / steps.get<double>() : std::nan("");
+}
+
 void Run::step_on(Progress& progress) {
     if (simulation_.step() == Simulation::Moved::yes) {
         if (simulation_.row_due()) {
@@ -225,7 +239,7 @@ void Run::step_on(Progress& progress) {
     }
     if (!progress.due(solver().steps())) return;
     const Program& program = simulation_.program();
-    progress.show({solver().steps(), solver().time(), simulation_.next_event(),
+    progress.show({solver().steps(), solver().time(), share_done(),
                    program.columns().empty()
                        ? ""
                        : fmt::format("{} {:.4g}", program.columns()[0].name, program.record()[0])});

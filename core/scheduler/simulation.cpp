@@ -1,4 +1,5 @@
 #include "core/scheduler/simulation.hpp"
+#include "core/scheduler/snapshot.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,9 @@ bool Crossing::reached(double now) {
 Simulation::Simulation(const Scene& scene, int threads)
     : scene_(scene), model_(build_model(scene)), solver_(make_solver(scene, model_, threads)),
       program_(scene, *solver_), columns_(make_columns()),
-      frames_(scene.frames.values.begin(), scene.frames.values.end()) {}
+      frames_(scene.frames.values.begin(), scene.frames.values.end()) {
+    check_states(scene, solver_->motion());
+}
 
 std::vector<ColumnInfo> Simulation::make_columns() const {
     std::vector<ColumnInfo> all{{"time", "s", "Time"}};

@@ -1,5 +1,7 @@
 #include "core/scheduler/snapshot.hpp"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <limits>
 
@@ -47,9 +49,7 @@ Dataset state_of(const Motion& motion, const gault_state& declared) {
             }};
 }
 
-} // namespace
-
-std::vector<Dataset> frame_datasets(const Motion& motion) {
+std::vector<Dataset> common_datasets(const Motion& motion) {
     const bool ring = motion.grid().axisymmetric();
     const char* axes = ring ? "(r, y, 0)" : "(x, y, 0)";
     std::vector<Dataset> sets;
@@ -83,6 +83,33 @@ std::vector<Dataset> frame_datasets(const Motion& motion) {
         {{"material", "1", "Index into the scene's materials, in their order"}, 1, [&motion](double* out) {
              each(motion, [&](int m, std::size_t, uint32_t id) { out[id] = m; });
          }});
+    return sets;
+}
+
+} // namespace
+
+void check_states(const Scene& scene, const Motion& motion) {
+    const std::vector<Dataset> common = common_datasets(motion);
+    const std::vector<Material>& all = motion.materials();
+    for (std::size_t m = 0; m < all.size(); ++m)
+        for (const StateInfo& info : all[m].states()) {
+            const auto refuse = [&](const std::string& why) {
+                throw InputError(scene.materials[m].model.parameters.where,
+                                 fmt::format("material '{}' has the state '{}'{}", all[m].name(),
+                                             info.declared.name, why));
+            };
+            for (const Dataset& set : common)
+                if (set.info.name == info.declared.name) refuse(", a dataset that every frame has already");
+            for (std::size_t before = 0; before < m; ++before)
+                if (const StateInfo* other = find_state(all[before], info.declared.name);
+                    other && other->declared.shape != info.declared.shape)
+                    refuse(fmt::format(" with {} components, material '{}' with {}", info.declared.shape,
+                                       all[before].name(), other->declared.shape));
+        }
+}
+
+std::vector<Dataset> frame_datasets(const Motion& motion) {
+    std::vector<Dataset> sets = common_datasets(motion);
     for (std::size_t m = 0; m < motion.materials().size(); ++m)
         for (const StateInfo& info : motion.materials()[m].states()) {
             bool known = false;

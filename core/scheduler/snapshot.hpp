@@ -7,6 +7,8 @@
 
 namespace gault::core {
 
+// InputError where a state has the name of another dataset, or another shape than its namesake.
+void check_states(const Scene& scene, const Motion& motion);
 std::vector<Dataset> frame_datasets(const Motion& motion);
 
 // Plain arrays of the whole model, for observers and comparisons; tension positive, SI.

@@ -119,7 +119,7 @@ void Boundaries::refuse(const Condition& condition, gault_status status, const g
     throw RunError(fmt::format("boundary '{}' on {}: {}{}", condition.instance.declaration().name,
                                fmt::join(condition.names, ", "),
                                text.empty() ? "no result and no reason" : text,
-                               status == GAULT_RETRY ? " (an explicit step cannot be repeated)" : ""));
+                               status == GAULT_RETRY ? " (a boundary cannot ask for a shorter step)" : ""));
 }
 
 void Boundaries::constrain(const Motion& motion, double time, double dt, FixedField& fixed,
@@ -156,18 +156,18 @@ void Boundaries::constrain(const Motion& motion, double time, double dt, FixedFi
             gault_error error{-1, 0, -1, ""};
             const gault_status status = condition.api().constrain(condition.instance.self(), &nodes, &error);
             if (status != GAULT_OK) refuse(condition, status, error);
-            impose(condition, condition.surfaces[s], held, fixed, value);
+            impose(condition, condition.surfaces[s], held, dt > 0.0, fixed, value);
         }
 }
 
-void Boundaries::impose(const Condition& condition, int surface, const Held& held, FixedField& fixed,
-                        VectorField& value) const {
+void Boundaries::impose(const Condition& condition, int surface, const Held& held, bool moves,
+                        FixedField& fixed, VectorField& value) const {
     for (int a = 0; a < 2; ++a)
         for (std::size_t k = 0; k < held.node.size(); ++k) {
             if (held.fixed[a][k] == 0.0) continue;
             const std::size_t n = held.node[k];
             const double wanted = held.velocity[a][k];
-            if (!std::isfinite(wanted))
+            if (moves && !std::isfinite(wanted))
                 throw RunError(fmt::format("boundary '{}' on {} prescribes a velocity that is not a number",
                                            condition.instance.declaration().name,
                                            fmt::join(condition.names, ", ")));

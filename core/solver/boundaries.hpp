@@ -27,7 +27,8 @@ class Boundaries {
     Boundaries(const Scene& scene, const Motion& motion,
                const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
 
-    // Prescribed components at `time`; `value` has a meaning where they are. Throws InputError when two conditions contradict each other.
+    // Prescribed components at `time`; `value` has a meaning where they are, if dt is not 0. Throws InputError
+    // when two conditions contradict each other.
     void constrain(const Motion& motion, double time, double dt, FixedField& fixed, VectorField& value);
     // Nodal forces from surface loads at the present positions; only nodes of the sides are written.
     // `stiffness`, if any, += -d(force)/d(displacement).
@@ -51,8 +52,8 @@ class Boundaries {
     // holds its neighbour, and a uniform pressure on two held parts is shared exactly.
     double share(int surface, std::size_t k, const FixedField& fixed) const;
 
-    // A control named `name` on a surface (any if nullopt): sets every listener, returns how many there
-    // are; `unit` gets the unit of a listener.
+    // Where the listeners of a control named `name` on a surface (any if nullopt) keep it; `unit` gets the
+    // unit of a listener.
     std::vector<double*> listeners(const std::string& name, std::optional<int> surface, std::string& unit);
     std::vector<std::string> control_names(std::optional<int> surface) const;
 
@@ -84,7 +85,7 @@ class Boundaries {
     void hold(Condition& condition, const Motion& motion);
     void prepare_load(Condition& condition,
                       const std::function<SoilBehind(const std::array<double, 2>&)>& behind);
-    void impose(const Condition& condition, int surface, const Held& held, FixedField& fixed,
+    void impose(const Condition& condition, int surface, const Held& held, bool moves, FixedField& fixed,
                 VectorField& value) const;
     [[noreturn]] void refuse(const Condition& condition, gault_status status, const gault_error& error) const;
 

@@ -1,9 +1,8 @@
 #include "core/solver/equilibrium.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gault::core {
 namespace {
@@ -13,6 +12,14 @@ std::size_t largest_batch(const Points& points) {
     for (const Batch& batch : points.layout().batches)
         most = std::max<std::size_t>(most, static_cast<std::size_t>(batch.capacity) * page_slots);
     return most;
+}
+
+// The first of `n` slots that holds a point whose stress is not finite.
+std::optional<std::size_t> not_finite(const Points& points, std::size_t first, std::size_t n) {
+    for (std::size_t slot = first; slot < first + n; ++slot)
+        for (const Column& stress : points.columns().stress)
+            if (points.identity(slot) != no_point && !std::isfinite(stress[slot])) return slot;
+    return std::nullopt;
 }
 
 } // namespace
@@ -41,12 +48,21 @@ struct Equilibrium::PointWork {
 
 Equilibrium::Equilibrium(Model& model, Motion& motion, VolumetricStrain volumetric_strain)
     : model_(model), motion_(motion), volumetric_strain_(volumetric_strain) {
-    std::size_t most = 0;
-    for (const Points& points : model.points) {
-        workspace_.emplace_back(largest_batch(points));
-        most = std::max(most, largest_batch(points));
+    tangent_.resize(36);
+    for (std::size_t m = 0; m < model.points.size(); ++m)
+        workspace_.emplace_back(0);
+    make_room();
+}
+
+// Batches grow where points are laid out anew.
+void Equilibrium::make_room() {
+    for (std::size_t m = 0; m < workspace_.size(); ++m) {
+        const std::size_t most = largest_batch(model_.points[m]);
+        if (workspace_[m].slots() < most) workspace_[m] = Workspace(most);
+        if (tangent_[0].size() >= most) continue;
+        for (Column& column : tangent_)
+            column.resize(most);
     }
-    tangent_.assign(36, Column(most));
 }
 
 bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int material, std::size_t slot,
@@ -95,7 +111,7 @@ bool Equilibrium::strain(const Motion::State& start, const VectorField& du, int 
     const auto& F = w.site.deformation;
     w.gradient_new = {step[0] * F[0] + step[1] * F[2], step[0] * F[1] + step[1] * F[3],
                       step[2] * F[0] + step[3] * F[2], step[2] * F[1] + step[3] * F[3],
-                      F[4] * radius / w.site.start_radius};
+                      grid.axisymmetric() ? F[4] * radius / w.site.start_radius : F[4]};
     return true;
 }
 
@@ -138,6 +154,7 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
                                           Stiffness& stiffness) {
     internal.clear();
     stiffness.clear();
+    make_room();
     Answer all;
     for (int m = 0; m < static_cast<int>(model_.points.size()); ++m)
         for (const Batch& batch : model_.points[m].layout().batches) {
@@ -226,8 +243,12 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
                                                view_of(motion_.grid()), tangent);
     if (failure.status != GAULT_OK) {
         answer.fraction = failure.fraction;
-        answer.reason = fmt::format("{}: {}", motion_.where(m, failure.slot), failure.text);
+        answer.reason = motion_.sentence(m, failure);
         if (failure.status != GAULT_RETRY) throw RunError(answer.reason);
+        return answer;
+    }
+    if (const auto slot = not_finite(points, first, n)) {
+        answer.reason = motion_.where(m, *slot) + ": the stress is not finite";
         return answer;
     }
     assemble(work, batch, m, tangent, internal, stiffness);

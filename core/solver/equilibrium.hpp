@@ -33,6 +33,7 @@ class Equilibrium {
     struct CellWork;
     Answer evaluate(const Motion::State& start, const VectorField& du, const Moment& moment, double limit,
                     int material, const Batch& batch, VectorField& internal, Stiffness& stiffness);
+    void make_room();
     bool strain(const Motion::State& start, const VectorField& du, int material, std::size_t slot,
                 PointWork& work) const;
     void share_volume(std::vector<PointWork>& work, std::vector<CellWork>& cells, const Batch& batch) const;

@@ -131,6 +131,10 @@ void ExplicitSolver::account(double dt) {
 bool ExplicitSolver::step(double dt) {
     load_first();
     boundaries_.constrain(*motion_, time_ + dt, dt, fixed_, value_);
+    if (fixed_.held() != held_) { // what is released now was not loaded when the last step ended
+        held_ = fixed_.held();
+        load(dt_before_);
+    }
     std::swap(internal_, internal_before_);
     const Moment moment{time_ + dt, dt};
     std::swap(velocity_, velocity_before_);
@@ -159,6 +163,7 @@ bool ExplicitSolver::step(double dt) {
     std::swap(traction_, traction_before_);
     load(dt);
     account(dt);
+    dt_before_ = dt;
     strained_ += motion_->largest_strain();
     ++steps_;
     return true;

@@ -36,6 +36,8 @@ class ExplicitSolver final : public Solver {
     double limit_ = 0.0, strained_ = 0.0, looked_ = 0.0;
     std::vector<double> stiffest_; // by material, Pa, where the limit was found
     std::size_t fixed_count_ = 0;
+    std::vector<std::pair<int, std::size_t>> held_; // when the loads were evaluated
+    double dt_before_ = 0.0;
 };
 
 } // namespace gault::core

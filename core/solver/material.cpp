@@ -226,6 +226,7 @@ gault_status differentiate(const Material& material, const Call& whole, std::siz
     Call shifted = whole;
     std::vector<Column> stress(6, Column(n)), state(material.state_components(), Column(n)),
         moved(9, Column(n));
+    Column moved_strain(n);
     std::vector<double*> states;
     for (int k = 0; k < 6; ++k)
         shifted.p.stress[k] = stress[k].data();
@@ -234,8 +235,8 @@ gault_status differentiate(const Material& material, const Call& whole, std::siz
     shifted.p.state = states.data();
     for (int column = 0; column < tangent_columns; ++column) {
         const double* strain = whole.p.strain[column];
-        std::transform(strain, strain + n, moved[0].begin(), [](double e) { return e + shift; });
-        shifted.p.strain[column] = moved[0].data();
+        std::transform(strain, strain + n, moved_strain.begin(), [](double e) { return e + shift; });
+        shifted.p.strain[column] = moved_strain.data();
         if (whole.p.F_new[0]) {
             const auto [i, j] = pair[column];
             for (int k = 0; k < 9; ++k)
@@ -282,8 +283,8 @@ UpdateFailure update_batch(const Material& material, Points& points, const std::
             status = update_in_pieces(material, whole, n, pieces, error);
     }
     if (status == GAULT_OK) return {};
-    const std::size_t slot =
-        first + static_cast<std::size_t>(std::clamp<int64_t>(error.point, 0, static_cast<int64_t>(n) - 1));
+    std::optional<std::size_t> slot;
+    if (error.point >= 0) slot = first + std::min(static_cast<std::size_t>(error.point), n - 1);
     return {status, slot,
             status == GAULT_RETRY && !tangent ? "the step had to be divided more than 1024 times"
                                               : error_text(error),
@@ -333,6 +334,25 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
 
 } // namespace
 
+namespace {
+
+// A fluid has no shear modulus.
+void check_moduli(const Material& material, const Points& points, const Column& modulus,
+                  const Column& shear) {
+    const auto refuse = [&](std::size_t slot, const char* which, double value, const char* wanted) {
+        throw RunError(fmt::format("material '{}': point {} has the {} modulus {:g} Pa; it must be {}",
+                                   material.name(), points.identity(slot), which, value, wanted));
+    };
+    points.each_point([&](std::size_t slot) {
+        if (!(modulus[slot] > 0.0) || !std::isfinite(modulus[slot]))
+            refuse(slot, "P-wave", modulus[slot], "positive and finite");
+        if (!(shear[slot] >= 0.0) || !std::isfinite(shear[slot]))
+            refuse(slot, "shear", shear[slot], "finite and not negative");
+    });
+}
+
+} // namespace
+
 void evaluate_moduli(const Material& material, Points& points, const GridView& grid,
                      const Deformation& deformation, double time, Column& modulus, Column& shear) {
     modulus.resize(points.slots());
@@ -352,6 +372,7 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
         [&](gault_points& p, gault_error& error) {
             return material.api().update(material.instance().self(), &p, &error);
         });
+    check_moduli(material, points, modulus, shear);
 }
 
 void start_material(const Material& material, Points& points, const GridView& grid) {

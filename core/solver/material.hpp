@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ class Workspace {
   public:
     explicit Workspace(std::size_t slots); // of the largest batch
 
+    std::size_t slots() const { return slots_; }
     double* column(int k); // the k-th scratch column, made when first asked for
     enum Use {
         strain = 0,
@@ -83,7 +85,7 @@ struct Moment { // of a constitutive update
 
 struct UpdateFailure {
     gault_status status = GAULT_OK;
-    std::size_t slot = 0;
+    std::optional<std::size_t> slot; // nothing: the model named no point
     std::string text;
     double fraction = 0.5; // of the step that is worth trying, where the status is RETRY
 };
@@ -108,7 +110,7 @@ inline std::array<double, 5> undeformed(std::size_t) {
 }
 
 // The elastic moduli of every point now (a zero increment); Pa. `shear` and `modulus` get points.slots()
-// entries.
+// entries. RunError where they are not those of a soil or a fluid.
 void evaluate_moduli(const Material& material, Points& points, const GridView& grid,
                      const Deformation& deformation, double time, Column& modulus, Column& shear);
 

@@ -149,11 +149,11 @@ void Motion::elastic_stress(const std::array<Column, 2>& moduli, const Task& tas
 
 void Motion::settle(const std::vector<Outcome>& outcomes) {
     largest_strain_ = 0.0;
+    updates_ += static_cast<int64_t>(point_count());
     for (std::size_t t = 0; t < outcomes.size(); ++t) {
         const auto& [strain, failure] = outcomes[t];
         const Task& task = tasks_[t];
         const Batch& batch = points_[task.material].layout().batches[task.batch];
-        updates_ += points_[task.material].layout().batches[task.batch].pages * page_slots;
         if (strain.bad >= 0) {
             const std::size_t slot = static_cast<std::size_t>(batch.first_page) * page_slots +
                                      static_cast<std::size_t>(strain.bad);
@@ -162,10 +162,7 @@ void Motion::settle(const std::vector<Outcome>& outcomes) {
                 "inside out",
                 where(task.material, slot), strain_limit));
         }
-        if (failure.status != GAULT_OK)
-            throw RunError(
-                fmt::format("{}: {}", where(task.material, failure.slot),
-                            failure.text.empty() ? "the model gave no result and no reason" : failure.text));
+        if (failure.status != GAULT_OK) throw RunError(sentence(task.material, failure));
         largest_strain_ = std::max(largest_strain_, strain.largest);
     }
 }
@@ -181,6 +178,14 @@ std::string Motion::where(int material, std::size_t slot) const {
     const PointRecord at = record(material, slot);
     return fmt::format("point {} of '{}' at ({:.6g}, {:.6g}) m", points_[material].identity(slot),
                        materials_[material].name(), at.position[0], at.position[1]);
+}
+
+std::string Motion::sentence(int material, const UpdateFailure& failure) const {
+    const std::string who = failure.slot ? where(material, *failure.slot)
+                                         : fmt::format("material '{}'", materials_[material].name());
+    const char* silence = failure.status == GAULT_RETRY ? "the step was too long, and no reason was given"
+                                                        : "the model gave no result and no reason";
+    return fmt::format("{}: {}", who, failure.text.empty() ? silence : failure.text);
 }
 
 } // namespace gault::core

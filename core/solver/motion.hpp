@@ -124,6 +124,7 @@ class Motion {
         });
     }
     std::string where(int material, std::size_t slot) const; // "point 17 of 'sand' at (0.02, 0.1) m"
+    std::string sentence(int material, const UpdateFailure& failure) const; // who failed, and why
 
   protected:
     struct Task { // one batch

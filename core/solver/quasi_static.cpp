@@ -9,7 +9,7 @@
 namespace gault::core {
 namespace {
 
-constexpr int most_iterations = 20, most_halvings = 6;
+constexpr int most_iterations = 20, most_halvings = 5;
 constexpr double shortest = 1e-9; // step, over the longest tried
 constexpr double growth = 10.0;   // of a step over the one before
 
@@ -131,6 +131,8 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::evaluate(const Moment& moment) {
         reason_ = answer.reason;
         return answer.reason.empty() && answer.largest_strain > limit ? Outcome::strained : Outcome::diverged;
     }
+    fraction_ = 0.25; // unless something else fails after this
+    reason_ = "Newton's method did not converge";
     motion_->attempt(*start_, du_);
     boundaries_.load(*motion_, moment.time, moment.dt, still_, traction_, &stiffness_);
     return Outcome::balanced;
@@ -147,19 +149,18 @@ double QuasiStaticSolver::unbalanced() const {
         else
             left += std::pow(wanted_.c[k][n] - du_.c[k][n], 2);
     });
+    if (!std::isfinite(all + free + way + left)) return HUGE_VAL;
     return std::max(all > 0.0 ? std::sqrt(free / all) : 0.0, left > 0.0 ? std::sqrt(left / way) : 0.0);
 }
 
 QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
-    fraction_ = 0.25;
-    reason_ = "Newton's method did not converge";
     Outcome outcome = evaluate(moment);
     if (outcome != Outcome::balanced) return outcome;
     double error = unbalanced();
     residuals_ = {error};
     for (int n = 0; n < most_iterations; ++n) {
         if (error <= settings_.tolerance) return Outcome::balanced;
-        correct();
+        if (!correct()) return Outcome::diverged;
         ++iterations_;
         const double before = error;
         const VectorField from = du_;
@@ -169,10 +170,12 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
                 for (std::size_t q = 0; q < du_.c[k].size(); ++q)
                     du_.c[k][q] = from.c[k][q] + share * correction_.c[k][q];
             outcome = evaluate(moment);
-            if (outcome == Outcome::diverged || halving == most_halvings) return Outcome::diverged;
-            if (outcome == Outcome::strained) return outcome;
-            error = unbalanced();
-            if (n == 0 || error < before || error <= settings_.tolerance) break;
+            error = outcome == Outcome::balanced ? unbalanced() : HUGE_VAL;
+            if (outcome == Outcome::balanced && (n == 0 || error < before || error <= settings_.tolerance))
+                break;
+            // A first correction that strains too much says that the step is too long.
+            if (halving == most_halvings || (n == 0 && outcome == Outcome::strained))
+                return outcome == Outcome::balanced ? Outcome::diverged : outcome;
         }
         residuals_.push_back(error);
         if (steps_ == 0 && n == 0 && largest_strain_ > settings_.strain_step) return Outcome::strained;
@@ -180,8 +183,9 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
     return Outcome::diverged;
 }
 
-// One Newton correction. Fixed components go where they are wanted; what nothing supports stays.
-void QuasiStaticSolver::correct() {
+// One Newton correction; false where there is none. Fixed components go where they are wanted; what nothing
+// supports stays.
+bool QuasiStaticSolver::correct() {
     Stiffness::Matrix& matrix = stiffness_.matrix();
     Eigen::VectorXd right(stiffness_.size());
     std::vector<char> held(static_cast<std::size_t>(stiffness_.size()));
@@ -205,8 +209,14 @@ void QuasiStaticSolver::correct() {
     if (!analysed_) factors_.analyzePattern(matrix);
     analysed_ = true;
     factors_.factorize(matrix);
-    const Eigen::VectorXd solution = factors_.solve(right);
+    const int status = factors_.umfpackFactorizeReturncode();
+    if (status != UMFPACK_OK && status != UMFPACK_WARNING_singular_matrix)
+        throw RunError(fmt::format("the stiffness matrix was not factorised: UMFPACK status {}", status));
+    Eigen::VectorXd solution = Eigen::VectorXd::Constant(right.size(), std::nan(""));
+    if (status == UMFPACK_OK) solution = factors_.solve(right); // writes nothing where it fails
     each_component([&](Eigen::Index row, int k, std::size_t n) { correction_.c[k][n] = solution[row]; });
+    if (!solution.allFinite()) reason_ = "the stiffness matrix is singular";
+    return solution.allFinite();
 }
 
 void QuasiStaticSolver::account(double) {

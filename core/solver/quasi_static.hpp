@@ -27,7 +27,7 @@ class QuasiStaticSolver final : public Solver {
     Outcome evaluate(const Moment& moment);
     double unbalanced()
         const; // norm of the forces on free components over the largest norm of forces, or the way left
-    void correct();
+    bool correct();
     bool shorten(double fraction, double dt);
     void restore(); // the start of the step
     double even_share(double ratio);

@@ -26,7 +26,8 @@ class FixedField : public VectorField {
     bool held_by(int surface, int component, std::size_t node) const {
         return static_cast<int64_t>(c[component][node]) >> surface & 1;
     }
-    std::size_t count() const { return held_.size(); } // of prescribed components
+    std::size_t count() const { return held_.size(); }                             // of prescribed components
+    const std::vector<std::pair<int, std::size_t>>& held() const { return held_; } // component, node
 
   private:
     std::vector<std::pair<int, std::size_t>> held_;

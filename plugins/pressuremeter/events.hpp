@@ -3,6 +3,7 @@
 #include <gault/program.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace pressuremeter {
 
@@ -67,6 +68,11 @@ struct Event {
 
 // A driven wall goes where it is sent, but for rounding; with a driven pressure the strain follows.
 constexpr double sent = 1e-12, followed = 1e-9;
+
+// s: what rounding leaves open of a time.
+inline double resolved(double time) {
+    return 4.0 * std::numeric_limits<double>::epsilon() * time;
+}
 
 inline Event strain_event(double target, double sign, double tolerance) {
     return {&State::strain, target, sign, tolerance};

@@ -114,7 +114,7 @@ class Interpretation {
         const Row &before = rows_[i - 1], &after = rows_[i];
         const double share = std::max(0.0, -before.strain) / (after.strain - before.strain);
         report_.result(name, "Pa", before.pressure + share * (after.pressure - before.pressure), source,
-                       "where the cavity last leaves its initial radius");
+                       "where the cavity first leaves its initial radius");
     }
 
     // The points of the Menard curve: where the first step began, and the last reading of every held step.

@@ -6,9 +6,11 @@
 
 namespace pressuremeter {
 
-struct Setting { // what phases take where they do not say it themselves
-    double a0;   // m
+struct Setting {     // what phases take where they do not say it themselves
+    double a0, time; // m; s, now
     std::optional<double> rate, strain_rate;
+    // Of the cavity strain where a wall is sent at this speed, m/s.
+    double tolerance(double speed) const { return std::max(sent, resolved(time) * speed / a0); }
 };
 
 // A stretch with one way of driving the wall.
@@ -63,7 +65,7 @@ struct Move {
         if (number > 0) return std::nullopt;
         const double speed = pressure_rate ? *pressure_rate : wall_speed(rate, strain_rate, setting);
         return Part{pressure_rate ? Part::Drive::pressure : Part::Drive::wall, Direction * speed,
-                    events_of(until, phase, Direction, pressure_rate ? followed : sent)};
+                    events_of(until, phase, Direction, pressure_rate ? followed : setting.tolerance(speed))};
     }
 };
 using Expand = Move<1>;
@@ -102,12 +104,12 @@ struct Loop {
         if (pressure_amplitude && !(*pressure_amplitude < phase.state.pressure))
             throw std::runtime_error("a loop falls by more than the pressure it begins at");
         const double direction = number % 2 == 0 ? -1.0 : 1.0, fall = direction < 0.0 ? 1.0 : 0.0;
+        const double speed = pressure_rate ? *pressure_rate : wall_speed(rate, strain_rate, setting);
         Event end = strain_amplitude
                         ? strain_event(phase.state.strain - fall * *strain_amplitude, direction,
-                                       pressure_rate ? followed : sent)
+                                       pressure_rate ? followed : setting.tolerance(speed))
                         : pressure_event(phase.state.pressure - fall * *pressure_amplitude, direction, phase);
         end.ends_phase = false;
-        const double speed = pressure_rate ? *pressure_rate : wall_speed(rate, strain_rate, setting);
         Part part{pressure_rate ? Part::Drive::pressure : Part::Drive::wall, direction * speed, {end}};
         part.loop = number / 2 + 1;
         return part;

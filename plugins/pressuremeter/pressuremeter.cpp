@@ -246,7 +246,7 @@ struct Pressuremeter {
         return phases[static_cast<std::size_t>(step.memory(phase_number))];
     }
     std::optional<Part> present(gault::Step& step) const {
-        const Setting setting{step.measure(initial_radius), rate, strain_rate};
+        const Setting setting{step.measure(initial_radius), step.time(), rate, strain_rate};
         const int number = static_cast<int>(step.memory(part_number));
         return std::visit(
             [&](const auto& one) { return one.part(number, setting, phase_origin(step), part_origin(step)); },
@@ -262,7 +262,8 @@ struct Pressuremeter {
                 "a pressuremeter opens a cavity; the radius of this surface falls as the wall "
                 "moves into the soil");
         double share = 1.0;
-        if (!step.repeatable() || step.dt() <= 1e-12 * longest(part, before)) return share;
+        if (!step.repeatable() || step.dt() <= 1e-12 * longest(part, before, step.measure(initial_radius)))
+            return share;
         for (const Event& event : part.ends)
             if (event.overshot(now))
                 share = std::min(share, event.left(before) / (event.left(before) - event.left(now)));
@@ -270,9 +271,9 @@ struct Pressuremeter {
     }
 
     // s, over which a part may change much.
-    static double longest(const Part& part, const State& now) {
+    static double longest(const Part& part, const State& now, double a0) {
         if (part.rate == 0.0) return gault::infinity;
-        return part.drive == Part::Drive::wall ? 0.05 * (1.0 + now.strain) / std::abs(part.rate)
+        return part.drive == Part::Drive::wall ? 0.05 * (1.0 + now.strain) * a0 / std::abs(part.rate)
                                                : std::max(std::abs(now.pressure), 1e4) / std::abs(part.rate);
     }
 
@@ -312,6 +313,7 @@ struct Pressuremeter {
                 next = std::min(next, at);
         if (step.repeatable() && row_strain && part.drive == Part::Drive::wall && part.rate != 0.0)
             next = std::min(next, next_row(part, now, a0));
+        next = std::max(next, now.time + resolved(now.time));
         step.stop_at(next);
         const double dt = std::min(step.next_dt(), next - now.time);
         if (part.drive == Part::Drive::wall) {
@@ -343,7 +345,7 @@ struct Pressuremeter {
     // What the last step tells of the time of the next event; with inertia steps are too short to tell.
     static double next_event(const gault::Step& step, const Part& part, const State& before, const State& now,
                              double began) {
-        double next = now.time + longest(part, now);
+        double next = now.time + longest(part, now, step.measure(initial_radius));
         const double dt = now.time - std::max(before.time, began);
         const bool sent_there = part.drive == Part::Drive::wall;
         for (const Event& event : part.ends) {

@@ -280,6 +280,35 @@ TEST(PressuremeterPhases, HoldAPressureWithReadings) {
     EXPECT_NEAR(cavity.pressure(), at_rest + 0.02 * soil, 1e-6);
 }
 
+// A time of 1e7 s is known to 2e-9 s, in which the wall moves further than rounding of the strain.
+TEST(PressuremeterPhases, MeetAStrainAfterALongTime) {
+    for (const double wait : {1e7, 1e9})
+        for (const bool repeatable : {true, false}) {
+            const Component c = test_of({{"hold", {{"duration", wait}, {"of", 1.0}}},
+                                         ending("expand", "cavity_strain", 0.02),
+                                         ending("unload", "cavity_strain", 0.01)});
+            Cavity cavity(c, repeatable);
+            for (int i = 0; i < 2000 && !cavity.run.done; ++i) {
+                cavity.step(cavity.run.time < wait ? wait : 0.013);
+                ASSERT_TRUE(std::isfinite(cavity.run.commanded("velocity"))) << wait;
+            }
+            EXPECT_TRUE(cavity.run.done) << wait;
+            EXPECT_NEAR(cavity.strain(), 0.01, 4.0 * 0.01 * 2.3e-16 * wait) << wait;
+        }
+}
+
+// Steps without inertia go no further than a twentieth of the radius at once.
+TEST(Pressuremeter, LooksAheadByATwentiethOfTheRadius) {
+    for (const Settings& speed : {Settings{{"rate", 1e-3}}, Settings{{"strain_rate", 0.05}}}) {
+        Settings settings = speed;
+        settings["until"] = std::vector<Record>{{"pressure", {{"value", 1e6}}}};
+        const Component c = program(settings);
+        Cavity cavity(c, true);
+        cavity.step(1e9);
+        EXPECT_NEAR(cavity.run.next, 1.0, 1e-9); // 1 mm
+    }
+}
+
 TEST(PressuremeterPhases, LoopReturnsToWhereItBegan) {
     for (const char* amplitude : {"strain_amplitude", "pressure_amplitude"}) {
         const double fall = std::string(amplitude) == "strain_amplitude" ? 0.005 : 5e3;

@@ -117,6 +117,8 @@ const Defect defects[] = {
      "material 'tiny': parameter 'stiffness' has the default 0, outside its bounds 0 and inf"},
     {"fractional_integer",
      "material 'tiny': parameter 'stiffness' has the default 1.5, which is no whole number"},
+    {"infinite_integer",
+     "material 'tiny': parameter 'stiffness' has the default inf, which is no whole number"},
     {"half_true", "material 'tiny': parameter 'stiffness' has the default 0.5; a boolean is 0 or 1"},
     {"required_and_optional", "material 'tiny': parameter 'stiffness' is both REQUIRED and OPTIONAL"},
     {"text_without_default",

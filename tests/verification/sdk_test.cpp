@@ -96,7 +96,8 @@ TEST(Wrapper, DeclaresBoundsDefaultsAndWhatIsRequired) {
     EXPECT_EQ(count.type, uint32_t{GAULT_INTEGER});
     EXPECT_EQ(count.flags, 0u);
     EXPECT_EQ(count.fallback, 3.0);
-    EXPECT_EQ(count.max, HUGE_VAL);
+    EXPECT_EQ(count.min, std::numeric_limits<int>::min());
+    EXPECT_EQ(count.max, std::numeric_limits<int>::max());
     EXPECT_STREQ(module.components[0]->parameters[7]->kinds[1]->name, "stretch");
     EXPECT_EQ(module.components[0]->parameters[9], nullptr);
 }

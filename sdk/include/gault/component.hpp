@@ -78,12 +78,12 @@ struct Parameter {
     constexpr Parameter below(double bound) const { return at_most(bound).with(GAULT_MAX_OPEN); }
     constexpr Parameter at_least(double bound) const {
         Parameter p = *this;
-        p.declaration.min = bound;
+        p.declaration.min = bound < p.declaration.min ? p.declaration.min : bound;
         return p;
     }
     constexpr Parameter at_most(double bound) const {
         Parameter p = *this;
-        p.declaration.max = bound;
+        p.declaration.max = bound > p.declaration.max ? p.declaration.max : bound;
         return p;
     }
     constexpr Parameter count(int64_t least,
@@ -245,6 +245,24 @@ void assign(void* owner, const gault_value& value) {
     Binding<typename M::value>::read(value, static_cast<typename M::owner*>(owner)->*Member);
 }
 
+template <class V>
+struct without_optional {
+    using type = V;
+};
+template <class V>
+struct without_optional<std::optional<V>> {
+    using type = V;
+};
+
+// What a member of the type V can hold of the integers that a scene can write.
+template <class V>
+constexpr void limit(gault_parameter& p) {
+    using Limits = std::numeric_limits<V>;
+    if constexpr (sizeof(V) < sizeof(int64_t)) p.max = static_cast<double>(Limits::max());
+    if constexpr (sizeof(V) < sizeof(int64_t) || std::is_unsigned<V>::value)
+        p.min = static_cast<double>(Limits::min());
+}
+
 template <auto Member>
 constexpr Parameter declare(const char* name, const char* symbol, const char* x_unit, const char* unit,
                             const char* doc) {
@@ -260,6 +278,7 @@ constexpr Parameter declare(const char* name, const char* symbol, const char* x_
     p.doc = doc;
     p.min = -infinity;
     p.max = infinity;
+    if constexpr (Binding<Value>::type == GAULT_INTEGER) limit<typename without_optional<Value>::type>(p);
     if constexpr (Binding<Value>::type == GAULT_RECORDS) p.kinds = Binding<Value>::kinds;
     return {p, &assign<Member>};
 }

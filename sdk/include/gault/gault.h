@@ -257,7 +257,8 @@ typedef struct gault_nodes { /* [grows] grid nodes on the selected surfaces, str
     uint32_t size;
     uint32_t reserved;
     int64_t count, padded;
-    double time, dt; /* at the end of the step; its length */
+    double time, dt; /* at the end of the step; its length: 0 where the host asks only which components are fixed, and a
+                        velocity that is not finite is ignored */
     const double *position[3], *normal[3], *displacement[3];
     const double *control; /* set points that a program commands, in the order of `controls` */
     double *fixed[3];      /* out, zero on entry: 1 where the component is prescribed */

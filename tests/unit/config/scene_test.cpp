@@ -334,6 +334,15 @@ TEST(Scene, TakesTheLeastThatIsEnoughAndSaysWhy) {
                         "output.frames: the last state (none are asked for)"}));
 }
 
+TEST(Scene, HasVolumesOfCellsWhereTheSolverIsNotExplicit) {
+    const Override mean{"model.volumetric_strain", "cell_mean"};
+    EXPECT_EQ(refusal("plain", {mean}), "accepted"); // the solver is still to be chosen
+    EXPECT_EQ(refusal("plain", {mean, {"model.solver", "quasi_static"}}), "accepted");
+    EXPECT_NE(refusal("plain", {mean, {"model.solver", "explicit"}})
+                  .find("the explicit solver has it pointwise only"),
+              std::string::npos);
+}
+
 TEST(Scene, PlacesPointsUniformlyWhenAsked) {
     EXPECT_EQ(read("plain").placement, Placement::gauss);
     EXPECT_EQ(read("plain", {{"points.placement", "uniform"}}).placement, Placement::uniform);

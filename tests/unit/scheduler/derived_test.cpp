@@ -163,6 +163,28 @@ TEST_F(Derived, AProgramThatCannotEvaluateSaysWhy) {
     EXPECT_TRUE(failure(block()).ends_with("program 'test_program': results: the fit diverged"));
 }
 
+// The points reach from 0 to 1 m.
+TEST_F(Derived, AProfileThatCannotBeComparedSaysWhyAndTheRunIsDone) {
+    const auto compared = [&](double from, double to) {
+        const std::filesystem::path file = folder.string() + ".csv";
+        std::ofstream out(file);
+        out << "reference_radius_m,sigma_r_Pa,sigma_theta_Pa\n";
+        for (int i = 0; i < 5; ++i)
+            out << from + 0.25 * i * (to - from) << ",1,1\n";
+        out.close();
+        SmallScene s = block();
+        s.scene.profiles = {{"tens", {{20.0, file}}}};
+        const nlohmann::json profile = summary(s)["reference"]["profiles"][0];
+        std::filesystem::remove(file);
+        return profile;
+    };
+    EXPECT_TRUE(compared(0.01, 1.0).contains("sigma_r_l2"));
+    const nlohmann::json narrow = compared(0.4, 0.6);
+    EXPECT_FALSE(narrow.contains("sigma_r_l2"));
+    EXPECT_FALSE(narrow["not_compared"].get<std::string>().empty());
+    EXPECT_THROW(compared(0.6, 0.4), InputError) << "radii that fall, before the run begins";
+}
+
 TEST_F(Derived, AnObserverSeesNoStateWhereTheMaterialLacksIt) {
     soil.states = {{"age", "s", "", GAULT_SCALAR, 0, 7.0, 0.0, 10.0}};
     std::vector<double> field;

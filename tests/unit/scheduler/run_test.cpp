@@ -160,6 +160,21 @@ TEST_F(Running, WritesTheFramesThatAreDueAndTheLastState) {
     EXPECT_EQ(summary()["counts"]["frames"], 4); // the last state is none of them
 }
 
+TEST_F(Running, GoesOnWhenTheSceneFileIsGone) {
+    const std::filesystem::path file = folder.string() + ".yaml";
+    std::ofstream(file) << "a scene";
+    SmallScene s = column(1e-3);
+    s.scene.file = file;
+    s.scene.solver.time_step_factor = 0.05;
+    s.scene.frames = {"travel", {5e-5}};
+    program.advance = [&, advance = program.advance](gault_step& step, gault_error& e) {
+        std::filesystem::remove(file);
+        return advance(step, e);
+    };
+    EXPECT_EQ(run(s), Outcome::done);
+    EXPECT_EQ(summary()["counts"]["frames"], 2);
+}
+
 TEST_F(Running, SaysStepTimeAndPointWhenTheRunFails) {
     double limit = 0.0;
     soil.update = [&](gault_points& p, gault_error& e) {
@@ -367,6 +382,27 @@ TEST_F(Running, CheckingSaysWhatTheSceneTookHoldOf) {
     EXPECT_TRUE(has("material soil: 192 points"));
     EXPECT_TRUE(has("test_boundary on top: 6 nodes"));
     EXPECT_TRUE(said.back().starts_with("stable step ")) << said.back();
+}
+
+TEST_F(Running, StatesHaveOneShapeAndNamesOfTheirOwn) {
+    TestMaterial rock(lame, shear);
+    const auto refusal = [&](gault_state one, gault_state other) {
+        soil.states = {one};
+        rock.states = {other};
+        SmallScene s = column(1e-3);
+        s.add(rock, density, "rock");
+        return message([&] { check_scene(s.scene); });
+    };
+    const gault_state age{"age", "s", "", GAULT_SCALAR, 0, 0.0, 0.0, 1.0};
+    gault_state fabric = age, stress = age;
+    fabric.shape = GAULT_SYMMETRIC;
+    stress.name = "stress";
+    EXPECT_EQ(refusal(age, age), "");
+    EXPECT_EQ(refusal(age, fabric), "scene.yaml:7:3: material 'rock' has the state 'age' with 6 components, "
+                                    "material 'soil' with 1");
+    EXPECT_EQ(
+        refusal(age, stress),
+        "scene.yaml:7:3: material 'rock' has the state 'stress', a dataset that every frame has already");
 }
 
 TEST_F(Running, CollectedPointsAreInTheOrderOfTheirIdentity) {

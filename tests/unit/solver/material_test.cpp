@@ -119,7 +119,7 @@ TEST_P(EveryFrame, SaysThatNoReasonWasGiven) {
     };
     s.add(soil, 1600.0);
     Body body(s.scene);
-    EXPECT_NE(message([&] { squeeze(body); }).find("no result and no reason"), std::string::npos);
+    EXPECT_EQ(message([&] { squeeze(body); }), "material 'soil': the model gave no result and no reason");
 }
 
 TEST_P(EveryFrame, SaysThatAPointStrainedTooMuchInAStep) {
@@ -311,6 +311,32 @@ TEST(Material, RefusesAFieldThatTheHostDoesNotOffer) {
     EXPECT_NE(text.find("scene.yaml:7:3: material 'soil' asks for the field 'densty'"), std::string::npos)
         << text;
     EXPECT_NE(text.find("did you mean 'density'?"), std::string::npos) << text;
+}
+
+TEST(Material, RefusesModuliThatSetNoTimeStep) {
+    const auto refusal = [](double modulus, double shear_modulus) {
+        TestMaterial soil(lame, shear);
+        soil.update = [&](gault_points& p, gault_error&) {
+            soil.elastic(p);
+            if (p.modulus) p.modulus[5] = modulus, p.shear_modulus[5] = shear_modulus;
+            return gault_status(GAULT_OK);
+        };
+        SmallScene s{Shape{}};
+        s.add(soil, 1600.0);
+        return message([&] {
+            Model model = build_model(s.scene);
+            ExplicitSolver solver(s.scene, model, 1);
+        });
+    };
+    EXPECT_EQ(refusal(std::nan(""), shear),
+              "material 'soil': point 5 has the P-wave modulus nan Pa; it must be positive and finite");
+    EXPECT_EQ(refusal(0.0, shear),
+              "material 'soil': point 5 has the P-wave modulus 0 Pa; it must be positive and finite");
+    EXPECT_EQ(refusal(lame, HUGE_VAL),
+              "material 'soil': point 5 has the shear modulus inf Pa; it must be finite and not negative");
+    EXPECT_EQ(refusal(lame, -1.0),
+              "material 'soil': point 5 has the shear modulus -1 Pa; it must be finite and not negative");
+    EXPECT_EQ(refusal(lame, 0.0), "") << "a fluid";
 }
 
 TEST(Material, StartsFromTheInitialStressAndMayRefuseIt) {

@@ -204,7 +204,7 @@ TEST(CellMean, DoesNotDependOnTheLengthOfSteps) {
 }
 
 // F and the volume ratio are those of the strains that the soil is given.
-TEST(CellMean, HandsSoilsTheGradientOfTheVolumeOfTheCell) {
+void expect_gradient_of_the_strain(VolumetricStrain volumetric_strain) {
     TestMaterial fluid(lame, 0.0), soil(lame, 0.0);
     soil.flags = GAULT_FINITE_STRAIN;
     soil.inputs = {"volume_ratio"};
@@ -226,14 +226,73 @@ TEST(CellMean, HandsSoilsTheGradientOfTheVolumeOfTheCell) {
     const std::vector<std::array<double, 4>> steps{{0.05, 0.1, -0.05, -0.05}, {0.1, 0.0, 0.1, 0.1}};
     for (const Symmetry symmetry : {Symmetry::plane_strain, Symmetry::axisymmetric}) {
         const Shape block = shape({symmetry, Frame::total, Basis::quadratic, ""});
-        const auto found = stresses(soil, block, VolumetricStrain::cell_mean, steps);
-        const auto expected = stresses(fluid, block, VolumetricStrain::cell_mean, steps);
+        const auto found = stresses(soil, block, volumetric_strain, steps);
+        const auto expected = stresses(fluid, block, volumetric_strain, steps);
         for (std::size_t i = 0; i < found.size(); i += 4) {
             ASSERT_NEAR(found[i], expected[i], 1e-12 * lame);
             ASSERT_NEAR(found[i + 1], expected[i], 1e-12 * lame);
             ASSERT_NEAR(found[i + 2], found[i + 3], 1e-12 * lame);
         }
     }
+}
+
+TEST(Equilibrium, HandsSoilsTheGradientOfTheirStrain) {
+    expect_gradient_of_the_strain(VolumetricStrain::pointwise);
+    expect_gradient_of_the_strain(VolumetricStrain::cell_mean);
+}
+
+// Points gather in the lowest row of cells, which outgrows every batch there was.
+TEST(Equilibrium, HasRoomForPointsThatAreLaidOutAnew) {
+    TestMaterial soil(lame, shear);
+    Shape block = shape({Symmetry::plane_strain, Frame::updated, Basis::quadratic, ""});
+    block.axes[1] = {8, 1.0};
+    SmallScene s{block};
+    s.add(soil, density);
+    Body body(s.scene);
+    prestress(body);
+    Equilibrium before(body.model, *body.motion);
+    const int version = body.model.points[0].version();
+    body.motion->arrive(body.field([](double, double y) { return std::array{0.0, y * y * y - y}; }), 1.0);
+    ASSERT_GT(body.model.points[0].version(), version);
+    Equilibrium anew(body.model, *body.motion);
+    const VectorField du = shaken(body.layout(), 1e-4, 3);
+    const auto start = body.motion->save();
+    std::array<VectorField, 2> internal{VectorField(body.layout()), VectorField(body.layout())};
+    std::array<Stiffness, 2> stiffness{Stiffness(body.model.grid), Stiffness(body.model.grid)};
+    ASSERT_TRUE(before.evaluate(*start, du, {1.0, 1.0}, 1.0, internal[0], stiffness[0]).found);
+    ASSERT_TRUE(anew.evaluate(*start, du, {1.0, 1.0}, 1.0, internal[1], stiffness[1]).found);
+    EXPECT_EQ(internal[0].c, internal[1].c);
+    EXPECT_EQ((stiffness[0].matrix() - stiffness[1].matrix()).norm(), 0.0);
+}
+
+// The strain grows by 1e-8 in one component at a time, and F as it does.
+TEST(Equilibrium, DifferentiatesWithTheStrainThatItSays) {
+    TestMaterial soil(lame, shear);
+    soil.flags = GAULT_FINITE_STRAIN;
+    std::vector<std::array<double, 8>> seen; // strain, and F xx yy zz xy, of the first point of a batch
+    soil.update = [&](gault_points& p, gault_error&) {
+        seen.push_back({p.strain[0][0], p.strain[1][0], p.strain[2][0], p.strain[3][0], p.F_new[0][0],
+                        p.F_new[4][0], p.F_new[8][0], p.F_new[1][0]});
+        return soil.elastic(p);
+    };
+    SmallScene s{shape({Symmetry::plane_strain, Frame::total, Basis::quadratic, ""})};
+    s.add(soil, density);
+    Body body(s.scene);
+    Equilibrium equilibrium(body.model, *body.motion);
+    Stiffness stiffness(body.model.grid);
+    VectorField internal(body.layout());
+    const auto start = body.motion->save();
+    const VectorField du = body.field([](double x, double y) { return std::array{0.1 * x, -0.2 * y}; });
+    seen.clear();
+    ASSERT_TRUE(equilibrium.evaluate(*start, du, {1.0, 1.0}, 1.0, internal, stiffness).found);
+    ASSERT_GE(seen.size(), 5u);
+    const double gradient[4] = {1.1, 0.8, 1.0, 0.8}; // what multiplies the shift
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double shift = k == column ? 1e-8 : 0.0;
+            EXPECT_NEAR(seen[column + 1][k] - seen[0][k], shift, 1e-15) << column << k;
+            EXPECT_NEAR(seen[column + 1][k + 4] - seen[0][k + 4], shift * gradient[k], 1e-15) << column << k;
+        }
 }
 
 // A block between rollers whose top goes down by a third.

@@ -1,0 +1,2 @@
+#define PARAMETER .flags = 0, .type = GAULT_INTEGER, .fallback = HUGE_VAL
+#include "tiny.h"
