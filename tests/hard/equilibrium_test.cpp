@@ -62,7 +62,9 @@ TEST(SelfWeightColumn, StaysAccurateWhilePointsCrossCells) {
 TEST_P(Equilibrium, SelfWeightGivesFortyKilopascalsAtTheBase) {
     HardScene s("hard/self_weight_column", with({weight_at_once}));
     s.run();
-    EXPECT_NEAR(s.solver.measure("normal_force", low_y).value(), 40e3, 1.0); // on 1 m of width
+    // On 1 m of width. In the updated frame, without inertia, weight is that of points that have since moved on.
+    expect_near("force at the base, kN", s.solver.measure("normal_force", low_y).value() / 1e3, 40.0,
+                updated() && !has_inertia() ? 1e-3 : 2.5e-5);
     // settlement: the integral of 1 - exp(-rho g (l0 - Y) / E)
     const double settled = 50.0 - (1.0 - std::exp(-0.04)) / 8e-4;
     EXPECT_NEAR(s.last("displacement"), settled, 1e-4 * settled);
