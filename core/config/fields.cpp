@@ -22,6 +22,10 @@ void check_bounds(double value, const Node& node, const std::string& path, const
                                            bounds.text(unit) + sentence(meaning));
 }
 
+std::string number(double value) { // whole ones with all their digits
+    return value == std::trunc(value) ? fmt::format("{:.10g}", value) : fmt::format("{:g}", value);
+}
+
 bool one_line(const std::string& text) {
     return text.size() <= longest_key &&
            std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= 0x20; });
@@ -31,8 +35,8 @@ bool one_line(const std::string& text) {
 
 std::string Bounds::text(const std::string& unit) const {
     const std::string suffix = unit.empty() || unit == "1" ? "" : " " + unit;
-    const std::string low = (min_open ? "more than " : "at least ") + fmt::format("{:.10g}", min) + suffix;
-    const std::string high = (max_open ? "less than " : "at most ") + fmt::format("{:.10g}", max) + suffix;
+    const std::string low = (min_open ? "more than " : "at least ") + number(min) + suffix;
+    const std::string high = (max_open ? "less than " : "at most ") + number(max) + suffix;
     if (min == -HUGE_VAL) return max == HUGE_VAL ? "a number" : high;
     return max == HUGE_VAL ? low : low + " and " + high;
 }

@@ -37,7 +37,8 @@ std::int64_t check_choices(const gault_parameter& p, const std::string& owner) {
 void check_fallback(const gault_parameter& p, std::int64_t choice_count, const std::string& owner) {
     const double x = p.fallback;
     if (p.type == GAULT_REAL || p.type == GAULT_INTEGER) {
-        check_that(std::isfinite(x) && (p.type == GAULT_REAL || x == std::trunc(x)), owner,
+        check_that(std::isfinite(x) && (p.type == GAULT_REAL || (x == std::trunc(x) && std::abs(x) < 0x1p63)),
+                   owner,
                    fmt::format("has the default {}, which is no {} number", x,
                                p.type == GAULT_REAL ? "finite" : "whole"));
         const bool above = p.flags & GAULT_MIN_OPEN ? x > p.min : x >= p.min;
