@@ -64,8 +64,8 @@ TEST_F(CommandLine, VersionIsOneLine) {
 }
 
 TEST_F(CommandLine, WithoutACommandListsThem) {
-    EXPECT_TRUE(
-        refusal(gault({})).starts_with("a command is required; allowed: run, check, plan, list, describe"));
+    EXPECT_TRUE(refusal(gault({})).starts_with(
+        "a command is required; allowed: run, check, plan, frontier, list, describe"));
 }
 
 TEST_F(CommandLine, MistypedCommandGetsTheNearestOne) {
