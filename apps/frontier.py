@@ -6,6 +6,7 @@ study keeps curves and has no errors, one panel a family: the curves of its memb
 """
 import argparse
 import json
+import re
 from pathlib import Path
 
 import matplotlib
@@ -40,7 +41,8 @@ def draw_errors(axes, data, error):
         axes.errorbar(time, percent, xerr=spread, color=color, marker=MARKERS[number % len(MARKERS)], ms=5, lw=1.3, mfc="white",
                       elinewidth=0.8, capsize=2, label=family["name"])
         for x, y, label in (zip(time, percent, labels) if len(found) > 1 else []):
-            axes.annotate(label.split(", ")[0].split(" ", 1)[-1], (x, y), xytext=(5, 4), textcoords="offset points", fontsize=7,
+            number = re.search(r"[\d.]+(e[-+]?\d+)?( ?%| \w+(/\w+)?)?", label)
+            axes.annotate(number[0] if number else label, (x, y), xytext=(5, 4), textcoords="offset points", fontsize=7,
                           color=color)
         front += [(m["wall_seconds"]["median"], 100 * m["errors"][error]) for m in family["members"]
                   if m.get("front", {}).get(error) and m["errors"][error]]
@@ -48,8 +50,10 @@ def draw_errors(axes, data, error):
         front.sort()
         axes.step(*zip(*front), where="post", color="#bbbbbb", lw=6, alpha=0.5, zorder=0, label="front: none is faster and nearer")
     axes.set(xscale="log", yscale="log", xlabel="wall time of the whole command (s)", ylabel="relative error (%)", title=error)
+    axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
 def draw_curves(axes, data, family):
