@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every figure of the documentation anew, from runs: some minutes. Program: $GAULT, or build/release/bin/gault.
+# Makes every figure of the documentation anew, from runs: a quarter of an hour. Program: $GAULT, or build/release/bin/gault.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 export GAULT="${GAULT:-$PWD/build/release/bin/gault}"
@@ -9,4 +9,4 @@ trap 'rm -rf "$results"' EXIT
 "$GAULT" run configs/paper/fahey.yaml -o "$results/fahey"
 /usr/bin/python3 apps/plot.py "$results/fahey" -o docs/figures/fahey.png --measured 655
 /usr/bin/python3 docs/figures/convergence.py
-/usr/bin/python3 docs/figures/cost.py
+/usr/bin/python3 docs/figures/accuracy.py
