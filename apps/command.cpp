@@ -52,8 +52,10 @@ core::Scene LoadedScene::reread(const std::vector<core::Override>& more) const {
 }
 
 std::vector<core::Override> everything_open() {
-    return {{"model.symmetry", "auto"}, {"model.frame", "auto"}, {"model.solver", "auto"},
-            {"grid", "auto"},           {"points", "auto"},      {"solver", "auto"}};
+    return {{"model.symmetry", "auto"}, {"model.frame", "auto"},
+            {"model.solver", "auto"},   {"model.volumetric_strain", "auto"},
+            {"grid", "auto"},           {"points", "auto"},
+            {"solver", "auto"}};
 }
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path) {

@@ -14,8 +14,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-COLORS = ["#1f5fa8", "#b5432a", "#2a9d6f", "#8a5fb0", "#c98a1b", "#4a4a4a", "#d16ba5", "#3bb0c9", "#7a8b2a", "#8c564b"]
-MARKERS = "osD^vP*Xhd"
+COLORS = ["#1f5fa8", "#b5432a", "#2a9d6f", "#8a5fb0", "#c98a1b", "#4a4a4a", "#d16ba5", "#3bb0c9", "#7a8b2a", "#8c564b", "#000000", "#e08a8a"]
+MARKERS = "osD^vP*Xhd<>"
 
 
 def points(family, error):
@@ -38,8 +38,9 @@ def draw_errors(axes, data, error):
         time, least, most, value, labels = zip(*found)
         color, percent = COLORS[number % len(COLORS)], [100 * v for v in value]
         spread = [[t - l for t, l in zip(time, least)], [m - t for t, m in zip(time, most)]]
-        axes.errorbar(time, percent, xerr=spread, color=color, marker=MARKERS[number % len(MARKERS)], ms=5, lw=1.3, mfc="white",
-                      elinewidth=0.8, capsize=2, label=family["name"])
+        alone = len(found) == 1
+        axes.errorbar(time, percent, xerr=spread, color=color, marker=MARKERS[number % len(MARKERS)], ms=9 if alone else 5, lw=1.3,
+                      mfc=color if alone else "white", elinewidth=0.8, capsize=2, label=family["name"])
         for x, y, label in (zip(time, percent, labels) if len(found) > 1 else []):
             number = re.search(r"[\d.]+(e[-+]?\d+)?( ?%| \w+(/\w+)?)?", label)
             axes.annotate(number[0] if number else label, (x, y), xytext=(5, 4), textcoords="offset points", fontsize=7,
