@@ -197,6 +197,9 @@ class Batch {
             }
         points_.state_old = old_states_.data();
         points_.state = states_.data();
+        for (const char* const* name = api.inputs; name && *name; ++name)
+            inputs_.push_back(add(input, count, 1.0));
+        points_.input = inputs_.data();
         points_.modulus = modulus.data();
         points_.shear_modulus = shear_modulus.data();
         for (int i = 0; with_tangent && i < 36; ++i)
@@ -206,6 +209,18 @@ class Batch {
 
     gault_status update() {
         return material_.api<gault_material_api>().update(material_.self(), &points_, &error);
+    }
+    // Before the first step: stress_old is the initial stress; the model may set its states from it.
+    gault_status start() {
+        const auto& api = material_.api<gault_material_api>();
+        for (int i = 0; i < 6; ++i)
+            copy(stress_old[i], stress[i]);
+        for (std::size_t i = 0; i < state.size(); ++i)
+            copy(state_old[i], state[i]);
+        gault_status status = GAULT_OK;
+        if (api.start) status = api.start(material_.self(), &points_, &error);
+        if (status == GAULT_OK) advance();
+        return status;
     }
     // The end of a step becomes the start of the next.
     void advance() {
@@ -226,7 +241,7 @@ class Batch {
     int64_t count() const { return points_.count; }
     double suggested() const { return points_.suggest; } // fraction of the step, after GAULT_RETRY
 
-    Columns strain, stress_old, stress, state_old, state, tangent;
+    Columns strain, stress_old, stress, state_old, state, tangent, input; // inputs are 1 until set
     Column modulus, shear_modulus;
     gault_error error{-1, 0, -1, ""};
 
@@ -242,7 +257,7 @@ class Batch {
             columns[i][point] = value[i];
     }
     const Component& material_;
-    std::vector<double*> old_states_, states_;
+    std::vector<double*> old_states_, states_, inputs_;
     gault_points points_{};
 };
 
