@@ -1,4 +1,6 @@
 #include "apps/command.hpp"
+#include "core/base/log.hpp"
+#include "core/study/child.hpp"
 
 #include <fmt/format.h>
 
@@ -41,6 +43,22 @@ LoadedScene::LoadedScene(const SceneArguments& arguments, const std::vector<core
     choices_ = core::choose_least(
         scene_, [this](const std::vector<core::Override>& changes) { return read(changes); });
     scene_ = reread({});
+}
+
+LoadedElementTest::LoadedElementTest(const SceneArguments& arguments)
+    : registry_(core::plugin_search_path(core::scene_plugins(arguments.file, overrides(arguments.set)),
+                                         arguments.plugin_path)),
+      test_(core::read_element_test(arguments.file, overrides(arguments.set), registry_)) {}
+
+void run_script(const std::string& script, std::vector<std::string> arguments, const std::filesystem::path& folder) {
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+    const std::filesystem::path file = program.parent_path().parent_path() / "share/gault" / script,
+                                said = folder / (script + ".log");
+    arguments.insert(arguments.begin(), {"/usr/bin/python3", file.string()});
+    if (core::run_child(arguments, said).status == 0)
+        std::filesystem::remove(said);
+    else
+        core::log::warn("no figure: /usr/bin/python3 {} failed, see {}", file.string(), said.string());
 }
 
 core::Scene LoadedScene::read(const std::vector<core::Override>& more) const {

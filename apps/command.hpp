@@ -1,5 +1,6 @@
 // The sub-commands of gault. Each is a file of its own and a line of the table in gault.cpp.
 #pragma once
+#include "core/config/element.hpp"
 #include "core/plan/plan.hpp"
 #include "core/registry/registry.hpp"
 
@@ -29,6 +30,7 @@ Action declare_describe(CLI::App& options);
 Action declare_bench(CLI::App& options);
 Action declare_plan(CLI::App& options);
 Action declare_frontier(CLI::App& options);
+Action declare_element(CLI::App& options);
 
 // A scene on the command line: the file, --set, --plugin-path.
 struct SceneArguments {
@@ -60,8 +62,22 @@ class LoadedScene {
     core::Scene scene_;
 };
 
+// A test of one point as read, with the plugins that it needs.
+class LoadedElementTest {
+  public:
+    explicit LoadedElementTest(const SceneArguments& arguments); // InputError
+    const core::ElementTest& operator*() const { return test_; }
+
+  private:
+    core::Registry registry_;
+    core::ElementTest test_;
+};
+
 // Leaves all that a plan may choose open.
 std::vector<core::Override> everything_open();
+
+// A script of share/gault with /usr/bin/python3. Where that fails: a warning, and what it said in FOLDER/SCRIPT.log.
+void run_script(const std::string& script, std::vector<std::string> arguments, const std::filesystem::path& folder);
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path);
 

@@ -2,7 +2,6 @@
 #include "apps/command.hpp"
 #include "core/base/log.hpp"
 #include "core/scheduler/simulation.hpp"
-#include "core/study/child.hpp"
 
 #include <fmt/format.h>
 
@@ -57,17 +56,6 @@ std::vector<std::string> passed_on(const SceneArguments& scene) {
     return words;
 }
 
-void draw(const fs::path& folder, const fs::path& program) {
-    const fs::path script = program.parent_path().parent_path() / "share/gault/frontier.py";
-    const fs::path errors = folder / "frontier.log";
-    const core::ChildResult drawn = core::run_child(
-        {"/usr/bin/python3", script, folder / "frontier.json", "-o", folder / "frontier.png"}, errors);
-    if (drawn.status == 0)
-        fs::remove(errors);
-    else
-        core::log::warn("no figure: /usr/bin/python3 {} failed, see {}", script.string(), errors.string());
-}
-
 int frontier(const Arguments& arguments, const std::string& command_line) {
     core::FrontierOptions options;
     options.folder = arguments.output.empty()
@@ -85,7 +73,9 @@ int frontier(const Arguments& arguments, const std::string& command_line) {
                                   ? core::read_study(arguments.scene.file)
                                   : study_of(LoadedScene(arguments.scene), arguments);
     fmt::print("{}", core::frontier_table(core::run_frontier(study, options)));
-    draw(options.folder, options.program);
+    run_script("frontier.py",
+               {(options.folder / "frontier.json").string(), "-o", (options.folder / "frontier.png").string()},
+               options.folder);
     core::log::info("results in {}", options.folder.string());
     return 0;
 }

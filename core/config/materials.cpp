@@ -9,23 +9,6 @@ namespace {
 
 constexpr std::size_t most_regions = 1000;
 
-MaterialUse read_material(const Node& node, const std::string& name, const std::string& path,
-                          const Registry& registry) {
-    require_kind(node, NodeKind::map, path);
-    const Node* model = node.find("model");
-    if (model == nullptr)
-        throw InputError(node.where(), path + ".model is missing: the name of a material model");
-    const Component& component =
-        registry.find(GAULT_MATERIAL, read_name(*model, path + ".model"), model->where());
-    MaterialUse material{
-        name, {&component, read_parameters(node, path, {"model", "density"}, component)}, 0.0};
-    const Node* density = node.find("density");
-    if (density == nullptr)
-        throw InputError(node.where(), path + ".density is missing (of the soil at the start, kg/m^3)");
-    material.density = read_quantity(*density, path + ".density", "kg/m^3", positive);
-    return material;
-}
-
 std::vector<std::string> names_of(const std::vector<MaterialUse>& materials, std::size_t count) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < count; ++i)
@@ -196,6 +179,23 @@ int base_material(const Node* soil, const RegionReader& regions, std::size_t dec
 }
 
 } // namespace
+
+MaterialUse read_material(const Node& node, const std::string& name, const std::string& path,
+                          const Registry& registry, std::optional<double> density) {
+    require_kind(node, NodeKind::map, path);
+    const Node* model = node.find("model");
+    if (model == nullptr)
+        throw InputError(node.where(), path + ".model is missing: the name of a material model");
+    const Component& component =
+        registry.find(GAULT_MATERIAL, read_name(*model, path + ".model"), model->where());
+    MaterialUse material{
+        name, {&component, read_parameters(node, path, {"model", "density"}, component)}, density.value_or(0.0)};
+    if (const Node* written = node.find("density"))
+        material.density = read_quantity(*written, path + ".density", "kg/m^3", positive);
+    else if (!density)
+        throw InputError(node.where(), path + ".density is missing (of the soil at the start, kg/m^3)");
+    return material;
+}
 
 void read_materials(const Source& source, Scene& scene) {
     const Node& materials =

@@ -12,6 +12,14 @@ const std::vector<std::string> keys = {
     "gault", "title",   "accuracy", "plugins", "geometry",   "model",   "grid",   "points", "materials",
     "soil",  "regions", "gravity",  "initial", "boundaries", "program", "solver", "output", "reference"};
 
+std::string read_title(const Fields& root, Scene& scene) {
+    if (const Node* title = root.find("title")) return read_text_value(*title, "title");
+    note_choice(scene, "title", scene.file.stem().string(), "the name of the file");
+    return scene.file.stem().string();
+}
+
+} // namespace
+
 Node parse_with_overrides(std::string text, const std::filesystem::path& file,
                           const std::vector<Override>& overrides) {
     Node root = parse_document(std::move(text), file.string());
@@ -31,14 +39,6 @@ void check_version(const Fields& root) {
         throw InputError(version.where(),
                          "gault is " + described(version) + "; this program reads version 1");
 }
-
-std::string read_title(const Fields& root, Scene& scene) {
-    if (const Node* title = root.find("title")) return read_text_value(*title, "title");
-    note_choice(scene, "title", scene.file.stem().string(), "the name of the file");
-    return scene.file.stem().string();
-}
-
-} // namespace
 
 Scene read_scene_text(std::string text, const std::filesystem::path& file,
                       const std::vector<Override>& overrides, const Registry& registry) {

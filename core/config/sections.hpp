@@ -4,6 +4,8 @@
 #include "core/config/fields.hpp"
 #include "core/config/scene.hpp"
 
+#include <optional>
+
 namespace gault::core::config {
 
 struct Source { // what every section reads from
@@ -18,6 +20,9 @@ void read_grid(const Source& source, Scene& scene);
 void read_parts(const Source& source, Scene& scene); // geometry.parts, which lie on the grid
 void read_points(const Source& source, Scene& scene);
 void read_materials(const Source& source, Scene& scene); // materials, regions, soil
+// {model: NAME, ...}. `density`: of a soil that names none; nothing: it must.
+MaterialUse read_material(const Node& node, const std::string& name, const std::string& path,
+                          const Registry& registry, std::optional<double> density = {});
 void read_gravity(const Source& source, Scene& scene);
 void read_initial(const Source& source, Scene& scene);
 void read_boundaries(const Source& source, Scene& scene);

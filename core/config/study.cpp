@@ -1,5 +1,6 @@
 #include "core/config/study.hpp"
 
+#include "core/config/reader.hpp"
 #include "core/config/sections.hpp"
 
 #include <cstdlib>
@@ -140,9 +141,7 @@ Study read_study(const std::filesystem::path& file) {
     using namespace config;
     const Node document = parse_study(file);
     const Fields root(document, "", keys);
-    if (const Node& version = root.require("gault", "the version of this format: `gault: 1`");
-        read_integer(version, "gault") != 1)
-        throw InputError(version.where(), "this program reads version 1");
+    check_version(root);
     Study study;
     study.scene = existing_file(root.require("scene", "the file of the scene that is run"), "scene",
                                 file.parent_path());

@@ -1,5 +1,5 @@
 #include "core/scheduler/palmer.hpp"
-#include "core/solver/point_path.hpp"
+#include "core/laboratory/soil_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ PalmerSolution::PalmerSolution(const Scene& scene, double largest)
         throw InputError(scene.palmer->where,
                          "reference.palmer is for a soil that does not depend on the rate; '" + soil.name() +
                              "' does");
-    PointPath point(soil, {-external_, -external_, -external_, 0.0, 0.0, 0.0});
+    SoilPoint point(soil, {-external_, -external_, -external_, 0.0, 0.0, 0.0});
     const double end = std::log1p(largest) * ratio;
     double before = 0.0, slope_before = 0.0; // of the integral over ln e
     for (double e = first;; e *= ratio) {

@@ -1,0 +1,53 @@
+// A test of one material point, for `gault element`.
+#pragma once
+#include "core/config/scene.hpp"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gault::core {
+
+// strain . (strain since the stage began) + stress . (stress now) goes in equal parts from what it is when the stage
+// begins to `end`; nothing: it stays. Components xx yy zz xy yz zx, tension positive, tensor shear; Pa.
+struct Constraint {
+    std::array<double, 6> strain{}, stress{};
+    std::optional<double> end;
+};
+
+struct ElementStage {
+    std::string kind, label; // "triaxial"; "2", or "3.1" within a cycle, as counted in the file
+    std::array<Constraint, 6> constraints;
+    int steps = 100;
+    double duration = 1.0; // s
+    // No water leaves or enters: the component whose total stress stays, from which the pore pressure follows.
+    std::optional<int> undrained;
+};
+
+// One call of the model as a run made it, SI, tension positive, tensor shear.
+struct ElementReplay {
+    std::array<double, 6> stress{}, strain{}; // at the start; increment
+    std::map<std::string, std::vector<double>> states, inputs;
+    std::optional<std::array<double, 9>> F_old, F_new; // row-major
+    double time = 0.0, dt = 1.0;                       // at the end of the step
+};
+
+struct ElementTest {
+    std::string title, yaml; // as run
+    std::filesystem::path file;
+    MaterialUse material;
+    std::array<double, 6> stress{};                    // initial, tension positive
+    std::map<std::string, std::vector<double>> states; // instead of what the soil starts with
+    std::vector<ElementStage> stages;                  // cycles written out
+    std::optional<ElementReplay> replay;               // instead of stages
+};
+
+constexpr int most_element_steps = 10'000'000; // in a test
+
+// Throws InputError (file:line:column: what, what is allowed, the nearest right name).
+ElementTest read_element_test(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                              const Registry& registry);
+
+} // namespace gault::core
