@@ -50,7 +50,8 @@ LoadedElementTest::LoadedElementTest(const SceneArguments& arguments)
                                          arguments.plugin_path)),
       test_(core::read_element_test(arguments.file, overrides(arguments.set), registry_)) {}
 
-void run_script(const std::string& script, std::vector<std::string> arguments, const std::filesystem::path& folder) {
+void run_script(const std::string& script, std::vector<std::string> arguments,
+                const std::filesystem::path& folder) {
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
     const std::filesystem::path file = program.parent_path().parent_path() / "share/gault" / script,
                                 said = folder / (script + ".log");

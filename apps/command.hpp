@@ -77,7 +77,8 @@ class LoadedElementTest {
 std::vector<core::Override> everything_open();
 
 // A script of share/gault with /usr/bin/python3. Where that fails: a warning, and what it said in FOLDER/SCRIPT.log.
-void run_script(const std::string& script, std::vector<std::string> arguments, const std::filesystem::path& folder);
+void run_script(const std::string& script, std::vector<std::string> arguments,
+                const std::filesystem::path& folder);
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path);
 

@@ -1,6 +1,6 @@
-#include "core/laboratory/element_test.hpp"
 #include "apps/command.hpp"
 #include "core/base/log.hpp"
+#include "core/laboratory/element_test.hpp"
 #include "core/output/atomic_file.hpp"
 #include "core/output/history.hpp"
 
@@ -39,8 +39,8 @@ nlohmann::json provenance(const core::ElementTest& test, const std::string& comm
 // A replayed call answers at once, and writes nothing.
 int print_replay(const core::ElementTest& test) {
     const core::Material soil(test.material);
-    fmt::print("{}\n{:>10}  {:<8} stress xx yy zz xy yz zx (Pa, tension positive), states, or the reason\n", test.title,
-               "increment", "answer");
+    fmt::print("{}\n{:>10}  {:<8} stress xx yy zz xy yz zx (Pa, tension positive), states, or the reason\n",
+               test.title, "increment", "answer");
     for (const core::ReplayAnswer& answer : core::replay(test)) {
         const char* status[] = {"OK", "RETRY", "INVALID", "FAILED"};
         const auto& failure = answer.failure;
@@ -65,7 +65,8 @@ int element(const Arguments& arguments, const std::string& command_line) {
     const LoadedElementTest loaded(arguments.test);
     const core::ElementTest& test = *loaded;
     if (test.replay) return print_replay(test);
-    const fs::path folder = arguments.output.empty() ? fs::path("out") / test.file.stem() : fs::path(arguments.output);
+    const fs::path folder =
+        arguments.output.empty() ? fs::path("out") / test.file.stem() : fs::path(arguments.output);
     if (!arguments.force && fs::exists(folder / "summary.json"))
         throw core::InputError(fmt::format("'{}' holds results; --force replaces them", folder.string()));
     core::ElementRun run(test);
@@ -82,11 +83,13 @@ int element(const Arguments& arguments, const std::string& command_line) {
                              {"steps", run.steps()},
                              {"newton_iterations", run.iterations()},
                              {"constitutive_updates", run.point().updates()}};
-        summary["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        summary["wall_seconds"] =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         core::write_atomically(folder / "summary.json", summary.dump(2) + "\n");
         if (!arguments.no_figure)
-            run_script("element.py", {(folder / "history.csv").string(), "-t", test.title, "-o",
-                                      (folder / "element.png").string()},
+            run_script("element.py",
+                       {(folder / "history.csv").string(), "-t", test.title, "-o",
+                        (folder / "element.png").string()},
                        folder);
     };
     try {
@@ -102,8 +105,9 @@ int element(const Arguments& arguments, const std::string& command_line) {
     conclude();
     if (arguments.quiet) return 0;
     core::log::info("{} stages, {} steps, {} iterations", test.stages.size(), run.steps(), run.iterations());
-    core::log::info("the soil by itself: {:.1f} ns a point in batches of {}, {:.1f} M updates/s on one thread",
-                    1e9 * seconds, batch, 1e-6 / seconds);
+    core::log::info(
+        "the soil by itself: {:.1f} ns a point in batches of {}, {:.1f} M updates/s on one thread",
+        1e9 * seconds, batch, 1e-6 / seconds);
     core::log::info("results in {}", folder.string());
     return 0;
 }
@@ -118,13 +122,14 @@ Action declare_element(CLI::App& options) {
     options.add_flag("--force", arguments->force, "Replaces the results that the folder holds");
     options.add_flag("--no-figure", arguments->no_figure, "Draws nothing");
     options.add_flag("-q,--quiet", arguments->quiet, "No closing lines");
-    options.footer("Takes one material point through laboratory tests (isotropic, triaxial, oedometer, plane_strain, "
-                   "simple_shear,\ntrue_triaxial, mixed; cycles) and writes history.csv, summary.json and element.png; "
-                   "docs/element.md has every key.\nA failed_point.yaml that a run left behind is asked again.\n\n"
-                   "Examples:\n"
-                   "  gault element configs/element/sand_triaxial.yaml\n"
-                   "  gault element my_test.yaml --set material.friction_angle='40 deg' --plugin-path build/my_soil.so\n"
-                   "  gault element out/my_scene/failed_point.yaml");
+    options.footer(
+        "Takes one material point through laboratory tests (isotropic, triaxial, oedometer, plane_strain, "
+        "simple_shear,\ntrue_triaxial, mixed; cycles) and writes history.csv, summary.json and element.png; "
+        "docs/element.md has every key.\nA failed_point.yaml that a run left behind is asked again.\n\n"
+        "Examples:\n"
+        "  gault element configs/element/sand_triaxial.yaml\n"
+        "  gault element my_test.yaml --set material.friction_angle='40 deg' --plugin-path build/my_soil.so\n"
+        "  gault element out/my_scene/failed_point.yaml");
     return [arguments](const std::string& command_line) { return element(*arguments, command_line); };
 }
 

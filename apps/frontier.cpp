@@ -73,9 +73,10 @@ int frontier(const Arguments& arguments, const std::string& command_line) {
                                   ? core::read_study(arguments.scene.file)
                                   : study_of(LoadedScene(arguments.scene), arguments);
     fmt::print("{}", core::frontier_table(core::run_frontier(study, options)));
-    run_script("frontier.py",
-               {(options.folder / "frontier.json").string(), "-o", (options.folder / "frontier.png").string()},
-               options.folder);
+    run_script(
+        "frontier.py",
+        {(options.folder / "frontier.json").string(), "-o", (options.folder / "frontier.png").string()},
+        options.folder);
     core::log::info("results in {}", options.folder.string());
     return 0;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gault::core {
 namespace config {
@@ -88,10 +89,9 @@ void read_triaxial(const Fields& fields, ElementStage& stage) {
             throw InputError(node->where(), fields.path(key) +
                                                 " is an effective stress, which an undrained test does not "
                                                 "prescribe; write axial_strain or deviator_stress");
-    const Constraint axial = drive == "axial_strain" ? strain(yy, shortening(fields, drive))
-                             : drive == "axial_stress"
-                                 ? stress(yy, pressure(fields, drive))
-                                 : difference(yy, xx, pressure(fields, drive));
+    const Constraint axial = drive == "axial_strain"   ? strain(yy, shortening(fields, drive))
+                             : drive == "axial_stress" ? stress(yy, pressure(fields, drive))
+                                                       : difference(yy, xx, pressure(fields, drive));
     std::optional<double> radial;
     if (fields.find("radial_stress")) radial = pressure(fields, "radial_stress");
     stage.constraints = undrained ? with_still_shear(axial, volume(0.0), difference(xx, zz))
@@ -122,10 +122,8 @@ void read_simple_shear(const Fields& fields, ElementStage& stage) {
     const std::string drive = exactly_one(fields, {"shear_strain", "shear_stress"});
     stage.constraints =
         with_still_shear(strain(xx, 0.0), undrained ? strain(yy, 0.0) : stress(yy), strain(zz, 0.0));
-    stage.constraints[xy] =
-        drive == "shear_strain"
-            ? strain(xy, 0.5 * shortening(fields, drive))
-            : stress(xy, pressure(fields, drive));
+    stage.constraints[xy] = drive == "shear_strain" ? strain(xy, 0.5 * shortening(fields, drive))
+                                                    : stress(xy, pressure(fields, drive));
     if (undrained) stage.undrained = yy;
 }
 
@@ -133,8 +131,7 @@ void read_simple_shear(const Fields& fields, ElementStage& stage) {
 void read_true_triaxial(const Fields& fields, ElementStage& stage) {
     const double b = fields.quantity("b", "1", {.min = 0.0, .max = 1.0});
     const Node* node = fields.find("hold");
-    const bool minor =
-        node && read_choice(*node, fields.path("hold"), {"mean_stress", "minor_stress"}) == 1;
+    const bool minor = node && read_choice(*node, fields.path("hold"), {"mean_stress", "minor_stress"}) == 1;
     Constraint intermediate{{}, {b - 1.0, -b, 1.0, 0.0, 0.0, 0.0}, 0.0};
     const Constraint held =
         minor ? stress(xx) : Constraint{{}, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0}, {}};
@@ -154,10 +151,9 @@ void read_mixed(const Fields& fields, ElementStage& stage) {
                                                     " is prescribed already: strain or stress, not both");
             given[k] = true;
             const bool held = node->kind == NodeKind::scalar && node->text == "held";
-            stage.constraints[k] =
-                make(static_cast<int>(k),
-                     held ? std::optional<double>()
-                          : -read_quantity(*node, part.path(component_names[k]), dimension));
+            stage.constraints[k] = make(
+                static_cast<int>(k), held ? std::optional<double>()
+                                          : -read_quantity(*node, part.path(component_names[k]), dimension));
         }
     };
     read("strain", "1", [](int k, std::optional<double> end) { return strain(k, end.value_or(0.0)); });
@@ -165,8 +161,8 @@ void read_mixed(const Fields& fields, ElementStage& stage) {
     for (std::size_t k = 0; k < 6; ++k) {
         if (given[k]) continue;
         if (k < 3)
-            throw InputError(fields.where(), fmt::format("{}: {} has neither a strain nor a stress", fields.path(),
-                                                         component_names[k]));
+            throw InputError(fields.where(), fmt::format("{}: {} has neither a strain nor a stress",
+                                                         fields.path(), component_names[k]));
         stage.constraints[k] = strain(static_cast<int>(k), 0.0);
     }
 }
@@ -178,7 +174,9 @@ struct Kind {
 };
 const std::vector<Kind> kinds = {
     {"isotropic", {"stress", "volumetric_strain"}, read_isotropic},
-    {"triaxial", {"axial_strain", "axial_stress", "deviator_stress", "radial_stress", "drainage"}, read_triaxial},
+    {"triaxial",
+     {"axial_strain", "axial_stress", "deviator_stress", "radial_stress", "drainage"},
+     read_triaxial},
     {"oedometer", {"axial_strain", "axial_stress"}, read_oedometer},
     {"plane_strain", {"axial_strain", "deviator_stress", "drainage"}, read_plane_strain},
     {"simple_shear", {"shear_strain", "shear_stress", "drainage"}, read_simple_shear},
@@ -208,11 +206,12 @@ class StageReader {
             names.emplace_back(kind.name);
         names.emplace_back("cycle");
         if (node.kind != NodeKind::map || node.keys.size() != 1)
-            throw InputError(node.where(), path + " must be a single {kind: {...}}; found " + described(node) +
-                                               did_you_mean("", names));
+            throw InputError(node.where(), path + " must be a single {kind: {...}}; found " +
+                                               described(node) + did_you_mean("", names));
         const std::string& name = node.keys[0].text;
         if (name == "cycle") return read_cycle(node.items[0], path + ".cycle", label, depth);
-        const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return name == k.name; });
+        const auto kind =
+            std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return name == k.name; });
         if (kind == kinds.end())
             throw InputError(node.keys[0].place.location(),
                              path + ": unknown kind " + in_quotes(name) + did_you_mean(name, names));
@@ -230,13 +229,16 @@ class StageReader {
 
     void read_cycle(const Node& node, const std::string& path, const std::string& label, int depth) {
         if (depth == deepest_cycle)
-            throw InputError(node.where(), fmt::format("{}: cycles within cycles, more than {} deep", path, depth));
+            throw InputError(node.where(),
+                             fmt::format("{}: cycles within cycles, more than {} deep", path, depth));
         const Fields fields(node, path, {"count", "stages"});
         const auto count = read_integer(fields.require("count", "how often"), fields.path("count"),
                                         {.min = 1, .max = most_element_steps});
         const std::size_t first = stages_.size();
-        read_list(fields.require("stages", "a list of stages"), fields.path("stages"), label + ".", depth + 1);
-        const std::vector<ElementStage> once(stages_.begin() + static_cast<std::ptrdiff_t>(first), stages_.end());
+        read_list(fields.require("stages", "a list of stages"), fields.path("stages"), label + ".",
+                  depth + 1);
+        const std::vector<ElementStage> once(stages_.begin() + static_cast<std::ptrdiff_t>(first),
+                                             stages_.end());
         for (std::int64_t turn = 1; turn < count; ++turn)
             for (const ElementStage& stage : once)
                 add(stage, fields.where());
@@ -253,7 +255,8 @@ class StageReader {
 std::vector<double> read_numbers(const Node& node, const std::string& path, std::size_t count) {
     const auto items = one_or_more(node);
     if (count && items.size() != count)
-        throw InputError(node.where(), fmt::format("{} has {} values; it must have {}", path, items.size(), count));
+        throw InputError(node.where(),
+                         fmt::format("{} has {} values; it must have {}", path, items.size(), count));
     std::vector<double> values;
     for (std::size_t i = 0; i < items.size(); ++i)
         values.push_back(read_quantity(*items[i], path + "." + std::to_string(i), "1"));
@@ -282,8 +285,10 @@ ElementReplay read_replay(const Node& node) {
     const Fields fields(node, "replay",
                         {"stress", "strain", "states", "inputs", "F_old", "F_new", "time", "dt"});
     ElementReplay replay;
-    replay.stress = read_array<6>(fields.require("stress", "six numbers, Pa, tension positive"), "replay.stress");
-    replay.strain = read_array<6>(fields.require("strain", "six increments, tension positive"), "replay.strain");
+    replay.stress =
+        read_array<6>(fields.require("stress", "six numbers, Pa, tension positive"), "replay.stress");
+    replay.strain =
+        read_array<6>(fields.require("strain", "six increments, tension positive"), "replay.strain");
     replay.states = read_named_numbers(fields, "states");
     replay.inputs = read_named_numbers(fields, "inputs");
     if (const Node* f = fields.find("F_old")) replay.F_old = read_array<9>(*f, "replay.F_old");
@@ -304,7 +309,8 @@ void read_initial(const Fields& root, ElementTest& test) {
     if (const Node* isotropic = fields.find("isotropic")) {
         for (const char* name : {"xx", "yy", "zz"})
             if (fields.find(name))
-                throw InputError(isotropic->where(), fields.path("isotropic") + " contradicts " + fields.path(name));
+                throw InputError(isotropic->where(),
+                                 fields.path("isotropic") + " contradicts " + fields.path(name));
         for (std::size_t k = 0; k < 3; ++k)
             test.stress[k] = pressure(fields, "isotropic");
     }
@@ -328,7 +334,8 @@ ElementTest read_element_text(std::string text, const std::filesystem::path& fil
         StageReader(test.stages).read_list(root.require("test"), "test", "", 0);
     } else {
         if (const Node* initial = root.find("initial"))
-            throw InputError(initial->where(), "initial has no place beside replay, which has its own stress");
+            throw InputError(initial->where(),
+                             "initial has no place beside replay, which has its own stress");
         test.replay = read_replay(root.require("replay"));
     }
     test.yaml = emit(document);
@@ -336,6 +343,44 @@ ElementTest read_element_text(std::string text, const std::filesystem::path& fil
 }
 
 } // namespace config
+
+namespace {
+
+std::string indented(const std::string& block) {
+    std::string text;
+    for (std::size_t begin = 0; begin < block.size();) {
+        const std::size_t end = std::min(block.find('\n', begin), block.size());
+        text += "  " + block.substr(begin, end - begin) + "\n";
+        begin = end + 1;
+    }
+    return text;
+}
+
+std::string named_numbers(const std::string& key, const std::map<std::string, std::vector<double>>& all) {
+    std::string text;
+    for (const auto& [name, values] : all)
+        text += fmt::format("    {}: [{}]\n", name, fmt::join(values, ", "));
+    return all.empty() ? "" : "  " + key + ":\n" + text;
+}
+
+} // namespace
+
+std::string replay_yaml(const std::string& title, const MaterialUse& material, const ElementReplay& call) {
+    config::Node heading;
+    heading.kind = config::NodeKind::scalar;
+    heading.quoted = true;
+    heading.text = title;
+    std::string text =
+        "gault: 1\ntitle: " + config::emit(heading) + "material:\n" + indented(material.yaml) +
+        "replay: # one call of the model, as the run made it: SI, tension positive, tensor shear\n";
+    text += fmt::format("  stress: [{}]\n  strain: [{}]\n", fmt::join(call.stress, ", "),
+                        fmt::join(call.strain, ", "));
+    text += named_numbers("states", call.states) + named_numbers("inputs", call.inputs);
+    if (call.F_old && call.F_new)
+        text += fmt::format("  F_old: [{}]\n  F_new: [{}]\n", fmt::join(*call.F_old, ", "),
+                            fmt::join(*call.F_new, ", "));
+    return text + fmt::format("  time: {} s\n  dt: {} s\n", call.time, call.dt);
+}
 
 ElementTest read_element_test(const std::filesystem::path& file, const std::vector<Override>& overrides,
                               const Registry& registry) {

@@ -44,6 +44,9 @@ struct ElementTest {
     std::optional<ElementReplay> replay;               // instead of stages
 };
 
+// The file that asks the model again, for read_element_test.
+std::string replay_yaml(const std::string& title, const MaterialUse& material, const ElementReplay& call);
+
 constexpr int most_element_steps = 10'000'000; // in a test
 
 // Throws InputError (file:line:column: what, what is allowed, the nearest right name).

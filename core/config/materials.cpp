@@ -8,6 +8,14 @@ namespace gault::core::config {
 namespace {
 
 constexpr std::size_t most_regions = 1000;
+const std::vector<std::string> host_keys = {"model", "density", "pore_water"};
+
+PoreWater read_water(const Node& node, const std::string& path) {
+    const Fields fields(node, path, {"bulk_modulus", "porosity", "pressure"});
+    const double bulk = fields.quantity("bulk_modulus", "Pa", positive, 2.2e9);
+    const double porosity = fields.quantity("porosity", "1", {.min = 0.0, .max = 1.0, .min_open = true}, 0.4);
+    return {bulk / porosity, fields.quantity("pressure", "Pa", not_negative, 0.0)};
+}
 
 std::vector<std::string> names_of(const std::vector<MaterialUse>& materials, std::size_t count) {
     std::vector<std::string> names;
@@ -20,7 +28,7 @@ std::vector<std::string> names_of(const std::vector<MaterialUse>& materials, std
 Node with_overrides(const Node& base, const Node& overrides, const std::string& path,
                     const Component& component) {
     auto keys = parameter_names(component.declaration->parameters);
-    keys.emplace_back("density");
+    keys.insert(keys.end(), host_keys.begin() + 1, host_keys.end()); // the model stays
     const Fields fields(overrides, path, keys);
     if (overrides.keys.empty()) throw InputError(overrides.where(), path + " changes nothing");
     Node merged = base;
@@ -188,12 +196,17 @@ MaterialUse read_material(const Node& node, const std::string& name, const std::
         throw InputError(node.where(), path + ".model is missing: the name of a material model");
     const Component& component =
         registry.find(GAULT_MATERIAL, read_name(*model, path + ".model"), model->where());
-    MaterialUse material{
-        name, {&component, read_parameters(node, path, {"model", "density"}, component)}, density.value_or(0.0)};
+    MaterialUse material{name,
+                         {&component, read_parameters(node, path, host_keys, component)},
+                         density.value_or(0.0),
+                         {},
+                         emit(node)};
     if (const Node* written = node.find("density"))
         material.density = read_quantity(*written, path + ".density", "kg/m^3", positive);
     else if (!density)
         throw InputError(node.where(), path + ".density is missing (of the soil at the start, kg/m^3)");
+    if (const Node* water = node.find("pore_water"))
+        material.water = read_water(*water, path + ".pore_water");
     return material;
 }
 

@@ -47,10 +47,17 @@ struct ComponentUse { // a component named in the scene, with its parameters
     Parameters parameters;
 };
 
+struct PoreWater {          // that neither leaves nor enters
+    double stiffness = 0.0; // bulk modulus over porosity, Pa
+    double pressure = 0.0;  // at the start, Pa, compression positive
+};
+
 struct MaterialUse {
     std::string name;
     ComponentUse model;
-    double density; // kg/m^3, initial
+    double density;                 // kg/m^3, initial
+    std::optional<PoreWater> water; // the soil is undrained; its model bears the effective stress
+    std::string yaml;               // as written, with what a region overrides
 };
 
 struct CellRange { // cells [first, last) along each axis

@@ -29,9 +29,11 @@ std::vector<ColumnInfo> columns_of(const Material& material, bool undrained) {
         {"stage", "1", "Stage in hand, as carried out, from 1; 0 at the start"},
     };
     for (const char* name : component_names)
-        columns.push_back({std::string("strain_") + name, "1", "Logarithmic strain, compression positive, tensor shear"});
+        columns.push_back(
+            {std::string("strain_") + name, "1", "Logarithmic strain, compression positive, tensor shear"});
     for (const char* name : component_names)
-        columns.push_back({std::string("stress_") + name, "Pa", "Effective Cauchy stress, compression positive"});
+        columns.push_back(
+            {std::string("stress_") + name, "Pa", "Effective Cauchy stress, compression positive"});
     columns.push_back({"mean_stress", "Pa", "p', effective, compression positive"});
     columns.push_back({"deviator_stress", "Pa", "q = sqrt(3 J2)"});
     columns.push_back({"volumetric_strain", "1", "Compression positive"});
@@ -112,7 +114,8 @@ std::vector<ReplayAnswer> replay(const ElementTest& test) {
         for (const auto& [name, values] : call.states)
             for (const StateInfo& info : material.states())
                 if (name == info.declared.name)
-                    for (std::size_t k = 0; k < std::min<std::size_t>(values.size(), info.declared.shape); ++k)
+                    for (std::size_t k = 0; k < std::min<std::size_t>(values.size(), info.declared.shape);
+                         ++k)
                         batch.state_old[static_cast<std::size_t>(info.first) + k][0] = values[k];
         for (std::size_t k = 0; k < batch.input.size(); ++k)
             if (const auto given = call.inputs.find(material.api().inputs[k]);

@@ -43,7 +43,8 @@ bool is_of_stress(const Constraint& c) {
 
 } // namespace
 
-MixedControl::Vector6 MixedControl::misfit(double share, const Tensor& increment, const Tensor& stress) const {
+MixedControl::Vector6 MixedControl::misfit(double share, const Tensor& increment,
+                                           const Tensor& stress) const {
     Tensor strain = point_.strain();
     for (std::size_t k = 0; k < 6; ++k)
         strain[k] += increment[k];
@@ -95,7 +96,8 @@ bool MixedControl::solve(double share, double dt, Tensor& increment) {
         for (const double s : answer.stress)
             size = std::max(size, std::abs(s));
         if (r.norm() <= precision * length + rounding * (1.0 + size / stiffness_)) return true;
-        Vector6 correction = Eigen::CompleteOrthogonalDecomposition<Matrix6>(jacobian(answer.tangent)).solve(r);
+        Vector6 correction =
+            Eigen::CompleteOrthogonalDecomposition<Matrix6>(jacobian(answer.tangent)).solve(r);
         const Tensor before = increment;
         const double norm = r.norm();
         bool nearer = false;
@@ -135,10 +137,10 @@ void MixedControl::go_to(double share) {
         }
         step *= 0.5;
         if (step < least_share)
-            throw RunError(fmt::format(
-                "stage {} ({}), {:.4g} % of it done: no strain meets what is prescribed: {}; a soil at its limit "
-                "cannot bear more stress: prescribe a strain instead",
-                stage_.label, stage_.kind, 100.0 * share_, reason_));
+            throw RunError(fmt::format("stage {} ({}), {:.4g} % of it done: no strain meets what is "
+                                       "prescribed: {}; a soil at its limit "
+                                       "cannot bear more stress: prescribe a strain instead",
+                                       stage_.label, stage_.kind, 100.0 * share_, reason_));
     }
 }
 

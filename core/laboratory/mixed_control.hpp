@@ -27,11 +27,11 @@ class MixedControl {
 
     SoilPoint& point_;
     const ElementStage& stage_;
-    Tensor begin_;                 // strain when the stage began
-    std::array<double, 6> start_;  // values of the constraints then
+    Tensor begin_;                    // strain when the stage began
+    std::array<double, 6> start_;     // values of the constraints then
     double share_ = 0.0, last_ = 0.0; // done; the last step
-    Tensor increment_{};           // of the last step
-    double stiffness_ = 0.0;       // Pa: makes stresses comparable with strains
+    Tensor increment_{};              // of the last step
+    double stiffness_ = 0.0;          // Pa: makes stresses comparable with strains
     int64_t iterations_ = 0;
     std::string reason_; // why the last attempt failed
 };

@@ -45,7 +45,8 @@ void PointBatch::pad() {
     const auto repeat = [this](auto& columns) {
         for (Column& column : columns)
             if (!column.empty())
-                std::fill(column.begin() + static_cast<std::ptrdiff_t>(count_), column.end(), column[count_ - 1]);
+                std::fill(column.begin() + static_cast<std::ptrdiff_t>(count_), column.end(),
+                          column[count_ - 1]);
     };
     repeat(strain), repeat(stress_old), repeat(state_old), repeat(input), repeat(F_old), repeat(F_new);
 }
@@ -87,7 +88,8 @@ UpdateFailure PointBatch::call(gault_status (*function)(const void*, gault_point
     gault_error error{-1, 0, -1, ""};
     const gault_status status = function(material_.instance().self(), &p, &error);
     if (status == GAULT_OK) return {};
-    UpdateFailure failure{status, std::nullopt, error_text(error), step_fraction(p.suggest, 1.0 / 1024.0, 0.5)};
+    UpdateFailure failure{status, std::nullopt, error_text(error),
+                          step_fraction(p.suggest, 1.0 / 1024.0, 0.5)};
     if (error.point >= 0 && error.point < p.count) failure.slot = static_cast<std::size_t>(error.point);
     return failure;
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // In the order of removal: whatever refers to another file goes before it.
-constexpr std::array files{"summary.json", "results.xdmf", "results.h5", "history.csv"};
+constexpr std::array files{"summary.json", "results.xdmf", "results.h5", "history.csv", "failed_point.yaml"};
 
 constexpr std::array<std::array<const char*, 2>, 6> conventions{{
     {"format", "gault results 1"},
@@ -142,6 +142,10 @@ void ResultWriter::frame(const std::vector<FrameAttribute>& attributes,
         write_frame(impl_->folder, impl_->frames.size(), impl_->point_count, attributes, datasets));
     impl_->write_results(false);
     write_atomically(folder() / "results.xdmf", xdmf(impl_->frames, impl_->point_count));
+}
+
+void ResultWriter::failed_point(const std::string& yaml) {
+    write_atomically(folder() / "failed_point.yaml", yaml);
 }
 
 void ResultWriter::summary(const nlohmann::json& summary) {

@@ -50,6 +50,7 @@ class ResultWriter {
     // results.h5, results.xdmf. `time` (s) is among the attributes, `position` (3 components) among the
     // datasets.
     void frame(const std::vector<FrameAttribute>& attributes, const std::vector<Dataset>& datasets);
+    void failed_point(const std::string& yaml);  // failed_point.yaml
     void summary(const nlohmann::json& summary); // summary.json; null where a number is not finite
     // The whole history and every frame into one self-contained results.h5. Once; only summary() may follow.
     // A run that was interrupted or failed ends with it too.

@@ -39,7 +39,9 @@ PalmerSolution::PalmerSolution(const Scene& scene, double largest)
         throw InputError(scene.palmer->where,
                          "reference.palmer is for a soil that does not depend on the rate; '" + soil.name() +
                              "' does");
-    SoilPoint point(soil, {-external_, -external_, -external_, 0.0, 0.0, 0.0});
+    const double effective =
+        external_ - (soil.water() ? soil.water()->pressure : 0.0); // the rest is the water's
+    SoilPoint point(soil, {-effective, -effective, -effective, 0.0, 0.0, 0.0});
     const double end = std::log1p(largest) * ratio;
     double before = 0.0, slope_before = 0.0; // of the integral over ln e
     for (double e = first;; e *= ratio) {

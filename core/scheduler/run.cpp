@@ -62,7 +62,8 @@ class Run {
     void write_frame();
     void summary(const char* status, const std::string& message);
     nlohmann::json plan();
-    void fail(const std::string& message); // what was written stays, with the reason
+    void fail(const std::string& message);         // what was written stays, with the reason
+    std::string keep_point(const RunError& error); // what the message says of it
     std::string advice();
     void derive();
     void report();
@@ -139,6 +140,18 @@ std::string Run::advice() {
             scene_.solver.time_step_factor, solver().stability_limit());
     return fmt::format("try a smaller solver.time_step_factor (now {:g}) or a gentler load",
                        scene_.solver.time_step_factor);
+}
+
+// The call that gave no result, so that `gault element` can make it again.
+std::string Run::keep_point(const RunError& error) try {
+    const auto* point = dynamic_cast<const PointError*>(&error);
+    if (!point || !point->call()) return "";
+    writer_.failed_point(replay_yaml(
+        fmt::format("{}: step {}, t = {:.6g} s", scene_.title, solver().steps() + 1, point->call()->time),
+        scene_.materials[static_cast<std::size_t>(point->material())], *point->call()));
+    return fmt::format("; its inputs: `gault element {}`", (writer_.folder() / "failed_point.yaml").string());
+} catch (const std::exception&) { // must not take the place of the reason
+    return "";
 }
 
 void Run::fail(const std::string& message) try {
@@ -273,10 +286,11 @@ Outcome Run::go() {
         stepping_ = seconds_since(stepping);
         finish();
     } catch (const RunError& error) {
+        const std::string kept = keep_point(error);
         const bool unstable = dynamic_cast<const InstabilityError*>(&error) != nullptr;
         const std::string message =
-            fmt::format("step {}, t = {:.6g} s: {}{}", solver().steps(), solver().time(), error.what(),
-                        unstable ? "; " + advice() : "");
+            fmt::format("step {}, t = {:.6g} s: {}{}{}", solver().steps(), solver().time(), error.what(),
+                        unstable ? "; " + advice() : "", kept);
         fail(message);
         throw RunError(message);
     } catch (const std::exception& error) { // a program drives two boundaries against each other, no memory

@@ -244,7 +244,7 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
     if (failure.status != GAULT_OK) {
         answer.fraction = failure.fraction;
         answer.reason = motion_.sentence(m, failure);
-        if (failure.status != GAULT_RETRY) throw RunError(answer.reason);
+        if (failure.status != GAULT_RETRY) throw PointError(answer.reason, m, failure.call);
         return answer;
     }
     if (const auto slot = not_finite(points, first, n)) {

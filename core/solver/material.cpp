@@ -14,17 +14,35 @@ namespace {
 
 const std::vector<std::string> field_names = {"density", "volume_ratio",
                                               "characteristic_length"}; // as HostField
+constexpr gault_state excess_pore_pressure = {
+    "excess_pore_pressure",
+    "Pa",
+    "Of undrained soil, over that at the start, compression positive.",
+    GAULT_SCALAR,
+    0,
+    0.0,
+    -HUGE_VAL,
+    HUGE_VAL};
 
 } // namespace
 
 Material::Material(const MaterialUse& use)
-    : name_(use.name), instance_(*use.model.component, use.model.parameters), density_(use.density) {
+    : name_(use.name), instance_(*use.model.component, use.model.parameters), density_(use.density),
+      water_(use.water) {
     const Location& where = use.model.parameters.where;
-    for (const gault_state& state : material_states(instance_)) {
+    const auto add = [this](const gault_state& state) {
         states_.push_back({state, components_});
         components_ += static_cast<int>(state.shape);
         rotates_states_ |= state.shape != GAULT_SCALAR && !finite_strain();
+    };
+    for (const gault_state& state : material_states(instance_)) {
+        if (water_ && std::strcmp(state.name, excess_pore_pressure.name) == 0)
+            throw InputError(where,
+                             fmt::format("material '{}' has a state '{}' of its own: leave pore_water out",
+                                         name_, state.name));
+        add(state);
     }
+    if (water_) add(excess_pore_pressure);
     for (const char* const* input = api().inputs; input && *input; ++input) {
         const auto found = std::find(field_names.begin(), field_names.end(), *input);
         if (found == field_names.end())
@@ -260,6 +278,62 @@ gault_status differentiate(const Material& material, const Call& whole, std::siz
 
 } // namespace
 
+namespace {
+
+// Effective stress of undrained soil: tension positive, total + pore pressure.
+void take_water_off(const Material& material, const double* excess, std::size_t n, double* const* stress) {
+    for (int k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < n; ++i)
+            stress[k][i] += material.water()->pressure + excess[i];
+}
+
+// The water resists the change of volume, and bears its share of the total stress.
+void put_water_back(const Material& material, const gault_points& p, double* const* tangent) {
+    const PoreWater& water = *material.water();
+    const double* before = p.state_old[material.state_components() - 1];
+    double* excess = p.state[material.state_components() - 1];
+    for (int64_t i = 0; i < p.count; ++i) {
+        excess[i] = before[i] - water.stiffness * (p.strain[0][i] + p.strain[1][i] + p.strain[2][i]);
+        for (int k = 0; k < 3; ++k)
+            p.stress[k][i] -= water.pressure + excess[i];
+    }
+    for (int row = 0; row < 3 && tangent; ++row)
+        for (int column = 0; column < 3; ++column)
+            for (int64_t i = 0; i < p.count; ++i)
+                tangent[6 * row + column][i] += water.stiffness;
+}
+
+} // namespace
+
+namespace {
+
+std::shared_ptr<const ElementReplay> call_of(const Material& material, const gault_points& p, std::size_t i) {
+    auto call = std::make_shared<ElementReplay>();
+    call->time = p.time;
+    call->dt = p.dt;
+    for (std::size_t k = 0; k < 6; ++k) {
+        call->stress[k] = p.stress_old[k][i];
+        call->strain[k] = p.strain[k][i];
+    }
+    for (const StateInfo& info : material.states())
+        for (int k = 0; k < static_cast<int>(info.declared.shape); ++k)
+            call->states[info.declared.name].push_back(p.state_old[info.first + k][i]);
+    if (material.water())
+        call->states.erase(excess_pore_pressure.name); // the stress is the model's: effective
+    for (std::size_t k = 0; k < material.inputs().size(); ++k)
+        call->inputs[material.api().inputs[k]] = {p.input[k][i]};
+    if (!p.F_old[0]) return call;
+    call->F_old.emplace();
+    call->F_new.emplace();
+    for (std::size_t k = 0; k < 9; ++k) {
+        (*call->F_old)[k] = p.F_old[k][i];
+        (*call->F_new)[k] = p.F_new[k][i];
+    }
+    return call;
+}
+
+} // namespace
+
 UpdateFailure update_batch(const Material& material, Points& points, const std::vector<Column>& state_old,
                            const Batch& batch, const BatchView& view, Workspace& workspace,
                            const Moment& moment, const GridView& grid, double* const* tangent) {
@@ -269,6 +343,7 @@ UpdateFailure update_batch(const Material& material, Points& points, const std::
     Call whole(material, points, first, n, view, workspace, moment);
     rotate_states(material, state_old.data(), first, n, view, workspace.old_states.data());
     fill_inputs(material, whole.p, view, workspace, n, grid);
+    if (material.water()) take_water_off(material, workspace.old_states.back(), n, view.stress_old);
     if (tangent && material.has_tangent()) std::copy_n(tangent, 36, whole.p.tangent);
 
     gault_error error;
@@ -282,18 +357,25 @@ UpdateFailure update_batch(const Material& material, Points& points, const std::
              status == GAULT_RETRY && pieces <= 1024; pieces *= 2)
             status = update_in_pieces(material, whole, n, pieces, error);
     }
-    if (status == GAULT_OK) return {};
-    std::optional<std::size_t> slot;
-    if (error.point >= 0) slot = first + std::min(static_cast<std::size_t>(error.point), n - 1);
-    return {status, slot,
-            status == GAULT_RETRY && !tangent ? "the step had to be divided more than 1024 times"
-                                              : error_text(error),
-            fraction};
+    if (status == GAULT_OK) {
+        if (material.water()) put_water_back(material, whole.p, tangent);
+        return {};
+    }
+    UpdateFailure failure{status, std::nullopt,
+                          status == GAULT_RETRY && !tangent
+                              ? "the step had to be divided more than 1024 times"
+                              : error_text(error),
+                          fraction};
+    if (error.point < 0) return failure;
+    const std::size_t i = std::min(static_cast<std::size_t>(error.point), n - 1);
+    failure.slot = first + i;
+    if (status == GAULT_FAILED) failure.call = call_of(material, whole.p, i);
+    return failure;
 }
 
 namespace {
 
-// Calls the model on every batch with a zero increment and the present stress; `prepare` adds outputs.
+// Calls the model on every batch with a zero increment and the present stress; `prepare` sets where outputs go.
 template <class Prepare, class Function>
 void call_at_rest(const Material& material, Points& points, const GridView& grid,
                   const Deformation& deformation, double time, Prepare prepare, Function function) {
@@ -325,6 +407,11 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
         for (int k = 0; k < material.state_components(); ++k)
             std::copy_n(columns.state[k].data() + first, n, workspace.column(Workspace::state_old + k));
         fill_inputs(material, whole.p, view, workspace, n, grid);
+        if (material.water()) take_water_off(material, workspace.old_states.back(), n, view.stress_old);
+        for (std::size_t k = 0; k < 6; ++k) { // the model's answer stays here
+            std::copy_n(view.stress_old[k], n, spare[k].data());
+            whole.p.stress[k] = spare[k].data();
+        }
         prepare(whole.p, first, spare);
         gault_error error{-1, 0, -1, ""};
         if (function(whole.p, error) != GAULT_OK)
@@ -363,8 +450,6 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
         [&](gault_points& p, std::size_t first, std::vector<Column>& spare) {
             p.modulus = modulus.data() + first;
             p.shear_modulus = shear.data() + first;
-            for (int k = 0; k < 6; ++k)
-                p.stress[k] = spare[k].data();
             for (std::size_t k = 0; k < states.size(); ++k)
                 states[k] = spare[6 + k].data();
             p.state = states.data();
@@ -372,6 +457,9 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
         [&](gault_points& p, gault_error& error) {
             return material.api().update(material.instance().self(), &p, &error);
         });
+    if (material.water())
+        for (double& m : modulus)
+            m += material.water()->stiffness;
     check_moduli(material, points, modulus, shear);
 }
 

@@ -1,6 +1,7 @@
 // A created soil model and how the host calls it on a batch of points.
 #pragma once
 #include "core/base/aligned.hpp"
+#include "core/config/element.hpp"
 #include "core/config/scene.hpp"
 #include "core/points/points.hpp"
 #include "core/registry/instance.hpp"
@@ -39,6 +40,8 @@ class Material {
     bool rate_dependent() const { return api().flags & GAULT_RATE_DEPENDENT; }
     bool one_at_a_time() const { return api().flags & GAULT_ONE_AT_A_TIME; }
     bool rotates_states() const { return rotates_states_; }
+    // Of undrained soil: the last of its states is the excess pore pressure, which the host keeps.
+    const std::optional<PoreWater>& water() const { return water_; }
 
   private:
     std::string name_;
@@ -46,7 +49,8 @@ class Material {
     double density_;
     std::vector<StateInfo> states_;
     std::vector<HostField> inputs_;
-    int components_ = 0;
+    int components_ = 0; // of the model's states, and of the host's
+    std::optional<PoreWater> water_;
     bool rotates_states_ = false;
 };
 
@@ -88,6 +92,19 @@ struct UpdateFailure {
     std::optional<std::size_t> slot; // nothing: the model named no point
     std::string text;
     double fraction = 0.5; // of the step that is worth trying, where the status is RETRY
+    std::shared_ptr<const ElementReplay> call = nullptr; // of the point in `slot`, to ask it again
+};
+
+class PointError : public RunError { // a soil model gave no result
+  public:
+    PointError(const std::string& what, int material, std::shared_ptr<const ElementReplay> call)
+        : RunError(what), material_(material), call_(std::move(call)) {}
+    int material() const { return material_; }                // index into Scene::materials
+    const ElementReplay* call() const { return call_.get(); } // null: the model named no point
+
+  private:
+    int material_;
+    std::shared_ptr<const ElementReplay> call_;
 };
 
 // Points the kernel's workspace arrays of `view` at what this material needs.

@@ -162,7 +162,8 @@ void Motion::settle(const std::vector<Outcome>& outcomes) {
                 "inside out",
                 where(task.material, slot), strain_limit));
         }
-        if (failure.status != GAULT_OK) throw RunError(sentence(task.material, failure));
+        if (failure.status != GAULT_OK)
+            throw PointError(sentence(task.material, failure), task.material, failure.call);
         largest_strain_ = std::max(largest_strain_, strain.largest);
     }
 }
