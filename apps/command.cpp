@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 namespace gault::app {
-namespace {
-
 std::vector<core::Override> overrides(const std::vector<std::string>& set) {
     std::vector<core::Override> all;
     for (const std::string& text : set) {
@@ -18,6 +16,8 @@ std::vector<core::Override> overrides(const std::vector<std::string>& set) {
     }
     return all;
 }
+
+namespace {
 
 std::vector<core::Override> joined(std::vector<core::Override> all, const std::vector<core::Override>& more) {
     all.insert(all.end(), more.begin(), more.end());

@@ -31,6 +31,10 @@ Action declare_bench(CLI::App& options);
 Action declare_plan(CLI::App& options);
 Action declare_frontier(CLI::App& options);
 Action declare_element(CLI::App& options);
+Action declare_certify(CLI::App& options);
+
+// KEY=VALUE of --set. InputError.
+std::vector<core::Override> overrides(const std::vector<std::string>& set);
 
 // A scene on the command line: the file, --set, --plugin-path.
 struct SceneArguments {

@@ -27,6 +27,7 @@ constexpr std::array commands{
     Command{"plan", "Says what is chosen for a scene, why, and what the run will cost", declare_plan},
     Command{"frontier", "Measures error against time over families of settings", declare_frontier},
     Command{"element", "Takes one material point of a soil through laboratory tests", declare_element},
+    Command{"certify", "Runs a soil model through the contract and through physics", declare_certify},
     Command{"list", "Lists every component with its version and file", declare_list},
     Command{"describe", "Prints a component's parameters, states or signals, and reference",
             declare_describe},

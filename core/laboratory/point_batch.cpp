@@ -15,14 +15,15 @@ PointBatch::PointBatch(const Material& material, std::size_t count)
         for (Column& column : columns)
             column.assign(padded_, value);
     };
-    make(strain), make(stress_old), make(stress), make(state_old), make(state), make(input, 1.0);
+    make(strain), make(stress_old), make(stress), make(state_old), make(state), make(input, 0.01);
     modulus.assign(padded_, 0.0);
     shear_modulus.assign(padded_, 0.0);
     for (const StateInfo& info : material.states())
         for (int k = 0; k < static_cast<int>(info.declared.shape); ++k)
             state_old[static_cast<std::size_t>(info.first + k)].assign(padded_, info.declared.initial);
     for (std::size_t k = 0; k < input.size(); ++k)
-        if (material.inputs()[k] == HostField::density) input[k].assign(padded_, material.density());
+        if (material.inputs()[k] != HostField::characteristic_length)
+            input[k].assign(padded_, material.inputs()[k] == HostField::density ? material.density() : 1.0);
     if (material.finite_strain())
         for (std::size_t k = 0; k < 9; ++k)
             for (auto* columns : {&F_old, &F_new})
@@ -39,6 +40,28 @@ Tensor PointBatch::get(const std::array<Column, 6>& columns, std::size_t point) 
 void PointBatch::set(std::array<Column, 6>& columns, std::size_t point, const Tensor& value) {
     for (std::size_t k = 0; k < 6; ++k)
         columns[k][point] = value[k];
+}
+
+void PointBatch::set_strain(std::size_t point, const Tensor& increment) {
+    set(strain, point, increment);
+    if (!material_.finite_strain()) return;
+    const Matrix stretch = deformation_gradient(increment);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            double sum = 0.0;
+            for (std::size_t k = 0; k < 3; ++k)
+                sum += stretch[3 * i + k] * F_old[3 * k + j][point];
+            F_new[3 * i + j][point] = sum;
+        }
+}
+
+void PointBatch::take(std::size_t point, const PointBatch& from, std::size_t its_point) {
+    const auto copy = [&](auto& to, const auto& source) {
+        for (std::size_t k = 0; k < to.size(); ++k)
+            if (!to[k].empty()) to[k][point] = source[k][its_point];
+    };
+    copy(strain, from.strain), copy(stress_old, from.stress_old), copy(state_old, from.state_old);
+    copy(input, from.input), copy(F_old, from.F_old), copy(F_new, from.F_new);
 }
 
 void PointBatch::pad() {
@@ -87,6 +110,7 @@ UpdateFailure PointBatch::call(gault_status (*function)(const void*, gault_point
     }
     gault_error error{-1, 0, -1, ""};
     const gault_status status = function(material_.instance().self(), &p, &error);
+    suggested = p.suggest;
     if (status == GAULT_OK) return {};
     UpdateFailure failure{status, std::nullopt, error_text(error),
                           step_fraction(p.suggest, 1.0 / 1024.0, 0.5)};

@@ -13,7 +13,7 @@ using Matrix = std::array<double, 9>; // row-major
 
 class PointBatch {
   public:
-    // States at their initial values, stress zero, no deformation, cells of one metre.
+    // States at their initial values, stress zero, no deformation, cells of a centimetre.
     PointBatch(const Material& material, std::size_t count);
 
     std::size_t count() const { return count_; }
@@ -21,6 +21,10 @@ class PointBatch {
 
     Tensor get(const std::array<Column, 6>& columns, std::size_t point) const;
     void set(std::array<Column, 6>& columns, std::size_t point, const Tensor& value);
+    // The increment of strain, and with it F_new = exp(increment) F_old.
+    void set_strain(std::size_t point, const Tensor& increment);
+    // The old values, the increment and the inputs of a point of a batch of the same material.
+    void take(std::size_t point, const PointBatch& from, std::size_t its_point);
     // The last point once more in every lane beyond `count`, as the contract promises.
     void pad();
 
@@ -39,7 +43,8 @@ class PointBatch {
     std::array<Column, 9> F_old, F_new;               // where the model wants them
     std::array<Column, 36> tangent;                   // empty until asked for
     Column modulus, shear_modulus;
-    double time = 0.0; // s, of the accepted state
+    double time = 0.0;      // s, of the accepted state
+    double suggested = 0.5; // of the step, as the model left it
 
   private:
     UpdateFailure call(gault_status (*function)(const void*, gault_points*, gault_error*) noexcept, double dt,

@@ -1,0 +1,93 @@
+#include "core/certificate/cloud.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace gault::core {
+namespace {
+
+constexpr int most_pieces = 64;
+
+// A point by itself. False: no result in most_pieces parts.
+bool step_one(PointBatch& batch, std::size_t point, double dt) {
+    const Tensor whole = batch.get(batch.strain, point);
+    for (int pieces = 1; pieces <= most_pieces; pieces *= 2) {
+        PointBatch one(batch.material(), 1);
+        one.take(0, batch, point);
+        one.time = batch.time;
+        Tensor part = whole;
+        for (double& e : part)
+            e /= pieces;
+        int made = 0;
+        for (; made < pieces; ++made) {
+            one.set_strain(0, part);
+            one.pad();
+            if (one.update(dt / pieces).status != GAULT_OK) break;
+            one.accept();
+        }
+        if (made < pieces) continue;
+        batch.set(batch.stress, point, one.get(one.stress, 0));
+        for (std::size_t k = 0; k < batch.state.size(); ++k)
+            batch.state[k][point] = one.state[k][0];
+        return true;
+    }
+    batch.set(batch.stress, point, batch.get(batch.stress_old, point));
+    for (std::size_t k = 0; k < batch.state.size(); ++k)
+        batch.state[k][point] = batch.state_old[k][point];
+    batch.set_strain(point, {});
+    return false;
+}
+
+} // namespace
+
+double uniform(Random& random, double low, double high) {
+    return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
+}
+double log_uniform(Random& random, double low, double high) {
+    return low * std::pow(high / low, uniform(random, 0.0, 1.0));
+}
+
+Tensor random_tensor(Random& random, double norm) {
+    Tensor t;
+    double square = 0.0;
+    do {
+        square = 0.0;
+        for (std::size_t k = 0; k < 6; ++k) {
+            t[k] = uniform(random, -1.0, 1.0);
+            square += (k < 3 ? 1.0 : 2.0) * t[k] * t[k];
+        }
+    } while (square > 3.0 || square < 1e-3);
+    for (double& x : t)
+        x *= norm / std::sqrt(square);
+    return t;
+}
+
+std::size_t step_each(PointBatch& batch, double dt) {
+    batch.pad();
+    if (batch.update(dt).status == GAULT_OK) return 0;
+    std::size_t refused = 0;
+    for (std::size_t i = 0; i < batch.count(); ++i)
+        refused += step_one(batch, i, dt) ? 0 : 1;
+    return refused;
+}
+
+PointBatch scatter(const Material& material, const Tensor& stress, std::size_t count, int steps,
+                   double largest, Random& random) {
+    PointBatch batch(material, count);
+    for (std::size_t i = 0; i < count; ++i)
+        batch.set(batch.stress_old, i, stress);
+    batch.pad();
+    if (const UpdateFailure failure = batch.start(); failure.status != GAULT_OK)
+        throw RunError(fmt::format("refuses the initial stress: {}", failure.text));
+    for (int step = 0; step < steps; ++step) {
+        for (std::size_t i = 0; i < count; ++i)
+            batch.set_strain(i, random_tensor(random, log_uniform(random, 1e-6, largest)));
+        step_each(batch, 1.0);
+        batch.accept();
+        batch.time += 1.0;
+    }
+    return batch;
+}
+
+} // namespace gault::core
