@@ -77,15 +77,24 @@ struct Model {
         exactly_one(critical_state_volume, "critical_state_volume", initial_void_ratio, "initial_void_ratio");
         exactly_one(overconsolidation_ratio, "overconsolidation_ratio", preconsolidation_pressure,
                     "preconsolidation_pressure");
-        if (swelling_index >= compression_index)
-            throw gault::Invalid("swelling_index", "must be below compression_index: the plastic volume "
-                                                   "change is their difference");
+        if (2.0 * swelling_index >= compression_index)
+            throw gault::Invalid("swelling_index",
+                                 "must be below half of compression_index: dry of critical the clay would "
+                                 "soften faster than it swells, and the stress has no unique solution");
         clay = {critical_state_ratio,
                 compression_index,
                 swelling_index,
                 1.0 - swelling_index / compression_index,
                 poisson_ratio ? 1.5 * (1.0 - 2.0 * *poisson_ratio) / (1.0 + *poisson_ratio) : 0.0,
                 shear_modulus.value_or(0.0)};
+        if (poisson_ratio && *poisson_ratio >= largest_poisson_ratio()) {
+            char text[200];
+            std::snprintf(text, sizeof text,
+                          "is %.6g; with these indices it must be below %.6g, or the clay dry of critical "
+                          "softens faster than it unloads and the stress has no unique solution",
+                          *poisson_ratio, largest_poisson_ratio());
+            throw gault::Invalid("poisson_ratio", text);
+        }
     }
 
     void start(gault::Point& p) const {
@@ -149,6 +158,14 @@ struct Model {
                                      " must be given, not " + (first ? "both" : "none"));
     }
 
+    // See README.md, limit of softening.
+    double largest_poisson_ratio() const {
+        const double b = swelling_index / (compression_index - swelling_index);
+        const double c = 0.5 * (1.0 - std::sqrt(1.0 - b * b));
+        const double least = c * critical_state_ratio * critical_state_ratio / 3.0; // of G / K
+        return (1.5 - least) / (3.0 + least);
+    }
+
     // Zero where the increment is refused, so that what is returned there stays finite.
     GAULT_INLINE SymmetricTensor accepted_strain(gault::Point& p) const {
         constexpr double largest = 0.3, most_of_log_pressure = 100.0; // exp() of it, squared, is a number
@@ -169,7 +186,8 @@ struct Model {
         return strain;
     }
 
-    // Of the larger pressure of both ends; G that changes with volumetric strain adds its change times the shear.
+    // Of the larger pressure of both ends; G that changes with volumetric strain adds its change times the shear, and
+    // as much again where plastic flow follows it.
     GAULT_INLINE void set_moduli(gault::Point& p, const Step& s, const Returned& r, Pack volume_old) const {
         const Pack bulk = s.volume * r.pressure / swelling_index;
         const Pack most_bulk = max(bulk, volume_old * s.pressure / swelling_index);
@@ -177,7 +195,7 @@ struct Model {
         const Pack most_shear = clay.shear > 0.0 ? Pack(clay.shear) : clay.shear_per_bulk * most_bulk;
         const Pack change = shear_modulus_slope(clay, s, max(r.x, s.lost / swelling_index),
                                                 s.volume / swelling_index, abs(s.mean_volume_slope));
-        p.modulus = most_bulk + 4.0 / 3.0 * most_shear + 2.0 * change * sqrt(inner(s.strain, s.strain));
+        p.modulus = most_bulk + 4.0 / 3.0 * most_shear + 4.0 * change * sqrt(inner(s.strain, s.strain));
         p.shear_modulus = shear;
     }
 };

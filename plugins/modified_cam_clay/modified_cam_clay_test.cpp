@@ -38,8 +38,8 @@ double volume_constant(const Laboratory& lab) {
 // su = M p'_f / 2 in triaxial compression and M p'_f / sqrt(3) in plane strain, p'_f = p'_0 (R/2)^Lambda. The path is
 // exact in every step; the approach is exp(-strain / 0.01), so that 30 % leave nothing.
 TEST(ModifiedCamClay, ReachesTheUndrainedStrengthOfItsOverconsolidation) {
-    const double published[][2] = {{1.0, 47.75e3}, {3.0, 114.99e3}, {10.0, 301.29e3}};
-    for (const auto& [R, strength] : published) {
+    const double known[][2] = {{1.0, 47.75e3}, {3.0, 114.99e3}, {10.0, 301.29e3}};
+    for (const auto& [R, strength] : known) {
         const double failure = p0 * std::pow(R / 2.0, Lambda);
         const Component c = clay(settings(R));
         Laboratory triaxial(c, isotropic(p0)), plane(c, isotropic(p0));
@@ -82,11 +82,10 @@ TEST(ModifiedCamClay, ConvergesToTheUndrainedStrainWithTheFirstOrder) {
             lab.triaxial_undrained(-strain / steps);
         error[k] = std::abs(lab.q() / expected - 1.0);
     }
-    EXPECT_LT(error[2], 2e-4);
-    for (int k = 0; k < 2; ++k) { // backward Euler: 1, from below or above at these lengths
+    EXPECT_LT(error[2], 1e-4);
+    for (int k = 0; k < 2; ++k) { // backward Euler: 1, and the next term of the series
         const double order = std::log(error[k] / error[k + 1]) / std::log(4.0);
-        EXPECT_NEAR(order, 1.0, 0.05);
-        RecordProperty("order_" + std::to_string(k), std::to_string(order));
+        EXPECT_NEAR(order, 1.0, 0.01);
     }
 }
 
@@ -131,8 +130,8 @@ TEST(ModifiedCamClay, EndsADrainedTriaxialTestAtTheCriticalState) {
             most = std::max(most, lab.q());
         }
         const double failure = 3.0 * M * p0 / (3.0 - M);
-        EXPECT_NEAR(lab.q(), failure, 2e-3 * failure);
-        EXPECT_NEAR(lab.state(specific_volume), Gamma - lambda * std::log(lab.p() / 1e3), 2e-3);
+        EXPECT_NEAR(lab.q(), failure, 2e-4 * failure); // the approach is exponential and leaves 5e-5
+        EXPECT_NEAR(lab.state(specific_volume), Gamma - lambda * std::log(lab.p() / 1e3), 1e-5);
         if (R > 2.0)
             EXPECT_GT(most, 1.3 * failure); // dry of critical: a peak, and dilation
         else
@@ -173,7 +172,7 @@ TEST(ModifiedCamClay, FollowsTheDrainedTestAtConstantMeanStress) {
         EXPECT_NEAR(shear, closed_form, 0.05 * closed_form); // v falls by 3 %
         EXPECT_GT(shear, closed_form);
     }
-    EXPECT_NEAR(std::log(error[0] / error[1]) / std::log(4.0), 1.0, 0.05);
+    EXPECT_NEAR(std::log(error[0] / error[1]) / std::log(4.0), 1.0, 0.02);
     EXPECT_LT(error[1], 5e-3);
 }
 
@@ -227,8 +226,8 @@ TEST(ModifiedCamClay, AgreesWithTheRateEquationsAlongAnObliquePath) {
             error[k] = std::max(error[k], std::abs(lab.stress()[i] - rates.stress[i]) / rates.size);
         EXPECT_NEAR(lab.state(preconsolidation), rates.size, 4.0 * error[k] * rates.size);
     }
-    EXPECT_LT(error[1], 3e-3);
-    EXPECT_NEAR(std::log(error[0] / error[1]) / std::log(4.0), 1.0, 0.1);
+    EXPECT_LT(error[1], 5e-4);
+    EXPECT_NEAR(std::log(error[0] / error[1]) / std::log(4.0), 1.0, 0.02);
 }
 
 TEST(ModifiedCamClay, KeepsItsVolumeOnStressAndHardening) {
@@ -242,7 +241,7 @@ TEST(ModifiedCamClay, KeepsItsVolumeOnStressAndHardening) {
     }
 }
 
-// Work of a closed elastic rectangle of strains, volume and shear, over the energy that one of its sides stores.
+// Work of a closed elastic rectangle of strains, volume and shear, over p' times its volumetric strain.
 double work_of_a_cycle(const Settings& s, int steps) {
     const Component c = clay(s);
     Laboratory lab(c, isotropic(p0));
@@ -266,13 +265,11 @@ double work_of_a_cycle(const Settings& s, int steps) {
     return work / (lab.p() * 3.0 * e);
 }
 
-// Constant nu: the shear stress gained at the high pressure is taken off at the low one (Zytynski and others 1978).
+// With constant nu the shear stress gained at the high pressure is taken off at the low one: the clay gives work away,
+// or takes it the other way round (Zytynski and others 1978).
 TEST(ModifiedCamClay, ConservesEnergyInElasticCyclesWithAConstantShearModulusOnly) {
-    const double coarse = std::abs(work_of_a_cycle(rigid_settings(20.0), 20)),
-                 fine = std::abs(work_of_a_cycle(rigid_settings(20.0), 80));
-    EXPECT_LT(fine, 1e-6); // that of the trapezium rule
-    EXPECT_GT(coarse, fine - 1e-12);
-    EXPECT_GT(std::abs(work_of_a_cycle(settings(20.0), 80)), 1e-3);
+    EXPECT_LT(std::abs(work_of_a_cycle(rigid_settings(20.0), 80)), 1e-12); // rounding
+    EXPECT_NEAR(work_of_a_cycle(settings(20.0), 80), -0.0165, 1e-4);
 }
 
 } // namespace

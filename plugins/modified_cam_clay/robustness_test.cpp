@@ -201,9 +201,29 @@ TEST(ModifiedCamClay, WantsExactlyOneOfEveryPair) {
         EXPECT_NE(message([&] { clay(none); }).find("not none"), std::string::npos) << pair[0].first;
         EXPECT_NE(message([&] { clay(both); }).find("not both"), std::string::npos) << pair[0].first;
     }
+}
+
+// The limit of README.md: u^2 (1 - c) - b u + c touches 0 between 0 and 1.
+TEST(ModifiedCamClay, RefusesWhatSoftensFasterThanItUnloads) {
     Settings s = settings();
-    s["swelling_index"] = lambda;
+    s["swelling_index"] = 0.5 * lambda;
     EXPECT_THROW(clay(s), Invalid);
+    const auto with_ratio = [](double ratio) {
+        Settings given = settings();
+        given["poisson_ratio"] = ratio;
+        return clay(given);
+    };
+    const auto least = [](double ratio) {
+        const double b = kappa / (lambda - kappa), c = 4.5 * (1.0 - 2.0 * ratio) / (1.0 + ratio) / (M * M);
+        double smallest = 1.0;
+        for (double u = 0.0; u <= 1.0; u += 1e-4)
+            smallest = std::min(smallest, (1.0 - c) * u * u - b * u + c);
+        return smallest;
+    };
+    EXPECT_GT(least(0.496), 0.0);
+    with_ratio(0.496);
+    EXPECT_LT(least(0.4965), 0.0);
+    EXPECT_THROW(with_ratio(0.4965), Invalid);
 }
 
 // Central differences of 1e-7 err by rounding, 1e-16 p'_c / 1e-7, and by curvature, 1e-14 of that of ln p', which
