@@ -32,12 +32,12 @@ GAULT_INLINE Candidate candidate(const Clay& clay, const Step& s, Pack t) {
     c.elastic = shear_elastically(s, c.shear);
     c.elastic_size = deviator_size(c.elastic);
 
-    const Pack q = clay.ratio * t * c.pressure, excess = c.elastic_size - q, dry = 1.0 - t * t;
+    const Pack q = clay.ratio * t * c.pressure, excess = c.elastic_size - q, wet = 1.0 - t * t;
     const Pack elastic_slope = 3.0 * inner(c.elastic, s.strain) / max(c.elastic_size, 1e-300) * c.shear_slope;
     const Pack q_slope = clay.ratio * c.pressure * (1.0 + t * c.x_slope);
-    c.residual = 6.0 * c.shear * t * c.plastic - clay.ratio * excess * dry;
+    c.residual = 6.0 * c.shear * t * c.plastic - clay.ratio * excess * wet;
     c.residual_slope = 6.0 * (c.shear_slope * t * c.plastic + c.shear * (c.plastic + t * c.plastic_slope)) -
-                       clay.ratio * ((elastic_slope - q_slope) * dry - 2.0 * t * excess);
+                       clay.ratio * ((elastic_slope - q_slope) * wet - 2.0 * t * excess);
     return c;
 }
 

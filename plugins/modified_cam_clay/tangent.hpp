@@ -19,7 +19,7 @@ struct Derivatives {
 
 GAULT_INLINE Derivatives derivatives(const Clay& clay, const Step& s, const Returned& r) {
     const Candidate c = candidate(clay, s, r.t);
-    const Pack size = deviator_size(r.elastic), dry = 1.0 - r.t * r.t;
+    const Pack size = deviator_size(r.elastic), wet = 1.0 - r.t * r.t;
     Derivatives d;
     for (int i = 0; i < 6; ++i)
         d.direction[i] = r.elastic[i] / max(size, 1e-300);
@@ -30,15 +30,15 @@ GAULT_INLINE Derivatives derivatives(const Clay& clay, const Step& s, const Retu
     const Pack q = clay.ratio * r.t * c.pressure;
     const Pack plastic_v = (clay.ratio_plastic * s.volume - c.plastic * s.mean_volume_slope) / s.mean_volume;
     const Pack residual_v = 6.0 * r.t * (d.shear_v * c.plastic + c.shear * plastic_v) -
-                            clay.ratio * dry * (3.0 * inner(d.direction, s.strain) * d.shear_v - q * x_v);
+                            clay.ratio * wet * (3.0 * inner(d.direction, s.strain) * d.shear_v - q * x_v);
     const Pack slope = select(abs(c.residual_slope) > 1e-300, c.residual_slope, 1e-300);
     d.t_v = select(r.plastic, -residual_v / slope, 0.0);
-    d.t_m = select(r.plastic, clay.ratio * dry * 3.0 * c.shear / slope, 0.0);
+    d.t_m = select(r.plastic, clay.ratio * wet * 3.0 * c.shear / slope, 0.0);
 
     d.pressure_v = select(r.at_least_pressure, 0.0, r.pressure * x_v);
     d.pressure_t = select(r.at_least_pressure, 0.0, r.pressure * c.x_slope);
     // q / q_elastic; near the isotropic axis, where both vanish, from the flow rule.
-    const Pack flow = clay.ratio * clay.ratio * c.pressure * dry;
+    const Pack flow = clay.ratio * clay.ratio * c.pressure * wet;
     const Pack near_axis = flow / (6.0 * c.shear * c.plastic + flow);
     d.scale = select(r.plastic, select(r.t < 0.5, near_axis, q / max(size, 1e-300)), 1.0);
     d.along = select(r.plastic, clay.ratio * c.pressure, 0.0);
