@@ -24,11 +24,13 @@ Scene cavity_scene(const Subject& subject) {
     const double stiffness = 1e3 * point.answer({}, 0.0, true).tangent.cwiseAbs().maxCoeff();
     const std::string text = fmt::format(R"(gault: 1
 accuracy: 0.1 %
+model: {{solver: quasi_static}}
 geometry: {{annulus: {{inner_radius: 20 mm, outer_radius: 200 mm, height: 20 mm}}}}
 materials: {{soil: {{model: linear_elastic}}}}
 initial: {{stress: {{isotropic: {0} Pa}}}}
 boundaries: [{{on: outer, type: pressure, value: {0} Pa}}, {{on: [top, bottom], type: roller}}, {{on: inner, type: wall}}]
 program: {{type: pressuremeter, on: inner, strain_rate: 0.01 1/s, until: {{cavity_strain: {1}}}}}
+solver: {{strain_step: 0.0005}}
 reference: {{palmer: {{x: cavity_strain, y: true_pressure, range: [0.5 %, {1}]}}}}
 )",
                                          pressure, cavity_strain);
