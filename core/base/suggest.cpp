@@ -6,7 +6,7 @@
 namespace gault::core {
 namespace {
 
-constexpr std::size_t few = 12; // candidates worth listing in one line
+constexpr std::size_t few = 16; // candidates worth listing in one line
 
 // Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours, one each.
 std::size_t distance(std::string_view a, std::string_view b) {
