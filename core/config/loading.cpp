@@ -144,9 +144,12 @@ void read_solver(const Source& source, Scene& scene) {
     std::vector<std::string> keys = dynamic;
     keys.insert(keys.end(), quasi_static.begin(), quasi_static.end());
     const Fields fields = source.root.section("solver", keys);
-    const bool inertia = scene.solver.kind == SolverKind::explicit_dynamics;
     for (const std::string& key : dynamic)
         if (fields.find(key)) scene.solver.dynamic_key = fields.path(key);
+    const bool open = std::any_of(scene.chosen.begin(), scene.chosen.end(),
+                                  [](const Choice& choice) { return choice.key == "model.solver"; });
+    const bool inertia = open ? !scene.solver.dynamic_key.empty() // as the plan will have it
+                              : scene.solver.kind == SolverKind::explicit_dynamics;
     for (const std::string& key : inertia ? quasi_static : dynamic)
         if (fields.find(key))
             note_choice(scene, fields.path(key), "not used",
@@ -157,7 +160,11 @@ void read_solver(const Source& source, Scene& scene) {
     solver.viscosity = fields.quantity("viscosity", "1", not_negative, solver.viscosity);
     solver.damping =
         fields.quantity("damping", "1", {.min = 0.0, .max = 1.0, .max_open = true}, solver.damping);
-    solver.strain_step = fields.quantity("strain_step", "1", positive, solver.strain_step);
+    if (!is_auto(fields.find("strain_step")))
+        solver.strain_step = fields.quantity("strain_step", "1", positive);
+    else if (!inertia)
+        note_choice(scene, fields.path("strain_step"), fmt::format("{:g}", solver.strain_step),
+                    "what the soil allows is not looked at");
     solver.tolerance =
         fields.quantity("tolerance", "1", {.min = 0.0, .max = 0.1, .min_open = true}, solver.tolerance);
     solver.mass_scaling = fields.quantity("mass_scaling", "1", {.min = 1.0}, solver.mass_scaling);

@@ -1,6 +1,7 @@
 #include "core/plan/plan.hpp"
 #include "core/base/memory.hpp"
 #include "core/plan/pilot.hpp"
+#include "core/plan/step_length.hpp"
 #include "core/scheduler/simulation.hpp"
 #include "core/solver/material.hpp"
 
@@ -48,14 +49,21 @@ std::string uneven(const Scene& scene, int side) {
     return "";
 }
 
+// Vertical stress at half the height, as if all were of this soil; Pa, compression positive.
+double vertical_at_middle(const Scene& scene, const MaterialUse& use) {
+    const InitialStress& initial = scene.initial_stress;
+    const double height = scene.geometry.upper[1] - scene.geometry.lower[1];
+    const double depth = initial.gravity ? initial.depth + 0.5 * height : 0.0;
+    return initial.vertical - use.density * scene.gravity[1] * depth;
+}
+
 // Of a soil under the initial stress at half the height.
 double poisson_ratio(const Scene& scene, const MaterialUse& use) {
     const InitialStress& initial = scene.initial_stress;
     const auto& [low, high] = std::pair(scene.geometry.lower, scene.geometry.upper);
     const auto axis = [&](std::size_t k) { return Axis(Axis::graded(low[k], high[k], 1, 1.0), 1); };
     const Grid grid(axis(0), axis(1), scene.symmetry != Symmetry::plane_strain);
-    const double depth = initial.gravity ? initial.depth + 0.5 * (high[1] - low[1]) : 0.0;
-    const double vertical = -initial.vertical + use.density * scene.gravity[1] * depth;
+    const double vertical = -vertical_at_middle(scene, use);
     const Material material(use);
     PointColumns point;
     point.place = {Column(1, 0.5), Column(1, 0.5)};
@@ -84,6 +92,7 @@ class Chooser {
         points();
         grading();
         cells();
+        strain_step();
         return std::move(choices_);
     }
 
@@ -264,6 +273,24 @@ class Chooser {
             fmt::format("{} for an accuracy of {:g} %",
                         annulus ? "each cell wider by the same share" : "the largest extent in equal cells",
                         100.0 * scene_.accuracy));
+    }
+
+    // As each soil by itself integrates its stress.
+    void strain_step() {
+        if (!open("solver.strain_step") || solver_ != SolverKind::quasi_static) return;
+        StepLength least{SolverSettings().strain_step, 0.0};
+        const MaterialUse* soil = nullptr;
+        for (const MaterialUse& use : scene_.materials) {
+            const double stress =
+                (1.0 + 2.0 * scene_.initial_stress.k0) / 3.0 * vertical_at_middle(scene_, use);
+            const StepLength own = longest_step(
+                Material(use), stress - (use.water ? use.water->pressure : 0.0), scene_.accuracy);
+            if (own.strain_step < least.strain_step) least = own, soil = &use;
+        }
+        choose("solver.strain_step", fmt::format("{:.3g}", least.strain_step),
+               soil ? fmt::format("'{}' by itself then opens a cavity with an error of {:.2g} %", soil->name,
+                                  100.0 * least.error)
+                    : "longer steps make no difference to the soil");
     }
 
     const Scene& scene_;
