@@ -1,0 +1,3 @@
+#include "laboratory.hpp"
+#include <gtest/gtest.h>
+TEST(X, Y) {}
