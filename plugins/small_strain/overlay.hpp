@@ -13,21 +13,48 @@ struct Backbone {             // what follows from the parameters
     double weight[elements];  // w_i, share of G_0
     double spring;            // w_inf = G_ur/G_0, of the spring that never slips
     double bulk, twice_shear; // K and 2 G_0 at the reference pressure, Pa
+    double carried;           // most stress that the slipping elements carry there, Pa
 };
 
-// Tangents to x/(1 + x), x = a gamma/gamma_07, at points that are equidistant in atan(sqrt x): the polyline that they
-// form is above the curve by the square of that distance at every one of its corners, which are the yield strains. Yield
-// strains less by half of that share it between both sides; the first and the last slope stay exact.
-inline void discretise(Backbone& k, double unit_strain, double end) {
-    const double step = std::atan(std::sqrt(end)) / elements;
-    const auto touch = [step](int j) { return std::pow(std::tan(step * j), 2); };
-    const auto slope = [&touch](int j) { return 1.0 / ((1.0 + touch(j)) * (1.0 + touch(j))); };
+// The modified hyperbola x/(1 + x), x = a gamma/gamma_07, up to where its slope is `least`, and then straight on, as a
+// polyline whose error alternates between +ripple and -ripple of the value: every corner is at the one, every segment
+// touches the other. The first slope is 1 and the last one `least`, exactly. Corners are the yield strains of elements.
+struct Polyline {
+    double corner[elements], slope[elements + 1];
+};
+
+// How the polyline of this ripple goes; false: it needs more corners than there are elements.
+inline bool ripples(double ripple, double least, Polyline& line) {
+    const double ratio = (1.0 + ripple) / (1.0 - ripple);
+    double x = ripple;
+    line.slope[0] = 1.0;
     for (int i = 0; i < elements; ++i) {
-        const double a = touch(i), b = touch(i + 1), corner = (a + b + 2.0 * a * b) / (2.0 + a + b);
-        k.yield[i] = corner * (1.0 - 0.5 * step * step) * unit_strain / std::sqrt(2.0);
-        k.weight[i] = slope(i) - slope(i + 1);
+        line.corner[i] = x;
+        const double c = ratio * x / (1.0 + x), root = c * c - (1.0 - c) * (x - c);
+        if (c >= 1.0 || root < 0.0) return true;
+        const double z = (c + std::sqrt(root)) / (1.0 - c); // touches there
+        line.slope[i + 1] = (1.0 - ripple) / ((1.0 + z) * (1.0 + z));
+        if (line.slope[i + 1] <= least) return true;
+        const double b = 0.5 * (ratio * (1.0 + z) * (1.0 + z) - 1.0 - z * z);
+        x = b + std::sqrt(std::fmax(b * b - z * z, 0.0));
     }
-    k.spring = slope(elements);
+    return false;
+}
+
+inline void discretise(Backbone& k, double unit_strain, double least) {
+    Polyline line{};
+    double enough = 0.5, short_of = 0.0;
+    for (int halving = 0; halving < 100; ++halving) { // the least ripple with which all corners suffice
+        const double ripple = 0.5 * (enough + short_of);
+        (ripples(ripple, least, line) ? enough : short_of) = ripple;
+    }
+    ripples(short_of, least, line);
+    line.slope[elements] = least;
+    for (int i = 0; i < elements; ++i) {
+        k.yield[i] = line.corner[i] * unit_strain / std::sqrt(2.0);
+        k.weight[i] = line.slope[i] - line.slope[i + 1];
+    }
+    k.spring = least;
 }
 
 inline namespace GAULT_ISA {

@@ -96,7 +96,8 @@ __attribute__((noinline)) inline void return_to_strength(const Backbone& k, cons
     constexpr int most_iterations = 60;
     constexpr double tolerance = 1e-11;
     const Stiffness c{k.bulk * old.stiffness, return_shear(k) * old.stiffness};
-    const Pack scale = norm(s.stress);
+    // Elements that balance each other at the apex leave the rounding of what they carry.
+    const Pack scale = norm(s.stress) + 1e-3 * (k.carried * old.stiffness);
     Search search(s.stress);
     s.unsolved = s.plastic;
     for (int iteration = 0; iteration < most_iterations && gault::any(s.unsolved); ++iteration) {
@@ -110,7 +111,7 @@ __attribute__((noinline)) inline void return_to_strength(const Backbone& k, cons
         keep(solved, a, r, plastic, s);
 
         std::array<std::array<Pack, 1>, 6> step{};
-        if (gault::any((s.unsolved & accept) | (wants_tangent ? solved : s.unsolved & accept))) {
+        if (gault::any(s.unsolved & accept) || (wants_tangent && gault::any(solved))) {
             const Matrix d = tangent(k, r, old.stiffness), j = derivative(f, a);
             Matrix newton = newton_matrix(c, d, j);
             if (wants_tangent && gault::any(solved)) keep_tangent(solved, newton, d, j, s);

@@ -81,7 +81,7 @@ struct Model {
         element_state("element_9"),
         element_state("element_10"),
         gault::scalar_state("stiffness_ratio", "1", "Moduli of now over those at the reference pressure.",
-                            1.0, 0.0),
+                            1.0, 0.01),
         gault::scalar_state("lost_stiffness", "1", "1 - G/G_0, G the tangent shear modulus of the last step.",
                             0.0, 0.0, 1.0),
         gault::scalar_state("plastic_strain", "1",
@@ -107,9 +107,12 @@ struct Model {
         if (ratio > 0.999 || ratio < 1e-4)
             throw gault::Invalid("unload_reload_shear_modulus",
                                  "must lie between 0.0001 and 0.999 of initial_shear_modulus");
-        discretise(backbone, reference_shear_strain / degradation, std::sqrt(1.0 / ratio) - 1.0);
+        discretise(backbone, reference_shear_strain / degradation, ratio);
         backbone.twice_shear = 2.0 * initial_shear_modulus;
         backbone.bulk = backbone.twice_shear * (1.0 + poisson_ratio) / (3.0 * (1.0 - 2.0 * poisson_ratio));
+        backbone.carried = 0.0;
+        for (int i = 0; i < elements; ++i)
+            backbone.carried += backbone.twice_shear * backbone.weight[i] * backbone.yield[i];
         attraction = exponent > 0.0 ? cohesion / std::tan(friction_angle) : 0.0;
         failure = strength(cohesion, friction_angle, dilation_angle, backbone.bulk / return_shear(backbone));
     }
@@ -118,8 +121,7 @@ struct Model {
     void start(gault::Point& p) const {
         p.fail(excess(failure, p.stress_old) > 1e-9 * (1.0 + norm(p.stress_old)),
                "the initial stress exceeds the Mohr-Coulomb strength: raise cohesion or friction_angle, or "
-               "choose a "
-               "less deviatoric initial stress");
+               "choose a less deviatoric initial stress");
         for (int i = 0; i < stiffness_ratio; ++i)
             p.set_state(i, 0.0);
         p.set_state(stiffness_ratio, stiffness_at(p.stress_old));
@@ -163,9 +165,8 @@ struct Model {
         const Pack ratio = (attraction - trace(stress) / 3.0) / (reference_pressure + attraction);
         return gault::pow(gault::max(ratio, least_pressure), exponent);
     }
-    static constexpr double degradation = 0.385; // Santos and Correia (2001)
-    static constexpr double least_pressure =
-        0.01; // of the reference pressure: softer than there no soil becomes
+    static constexpr double degradation = 0.385;   // Santos and Correia (2001)
+    static constexpr double least_pressure = 0.01; // of the reference pressure: no softer below it
 };
 
 } // namespace GAULT_ISA
