@@ -30,7 +30,6 @@ materials: {{soil: {{model: linear_elastic}}}}
 initial: {{stress: {{isotropic: {0} Pa}}}}
 boundaries: [{{on: outer, type: pressure, value: {0} Pa}}, {{on: [top, bottom], type: roller}}, {{on: inner, type: wall}}]
 program: {{type: pressuremeter, on: inner, strain_rate: 0.01 1/s, until: {{cavity_strain: {1}}}}}
-solver: {{strain_step: 0.0005}}
 reference: {{palmer: {{x: cavity_strain, y: true_pressure, range: [0.5 %, {1}]}}}}
 )",
                                          pressure, cavity_strain);
