@@ -26,11 +26,12 @@ std::vector<core::Override> joined(std::vector<core::Override> all, const std::v
 
 } // namespace
 
-void SceneArguments::declare(CLI::App& options) {
-    options.add_option("scene", file, "The scene, a YAML file")->required()->type_name("FILE");
+void SceneArguments::declare(CLI::App& options, const std::string& what) {
+    options.add_option(what, file, "The " + what + ", a YAML file")->required()->type_name("FILE");
     options
         .add_option("--set", set,
-                    "Overrides a key of the scene; dots for maps, numbers for list items. May be repeated")
+                    "Overrides a key of the " + what +
+                        "; dots for maps, numbers for list items. May be repeated")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     declare_plugin_path(options, plugin_path);

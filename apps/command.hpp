@@ -42,7 +42,7 @@ struct SceneArguments {
     std::vector<std::string> set;
     std::vector<std::filesystem::path> plugin_path;
 
-    void declare(CLI::App& options);
+    void declare(CLI::App& options, const std::string& what = "scene");
 };
 
 // A scene as read, with the plugins that it needs.

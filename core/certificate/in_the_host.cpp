@@ -81,9 +81,10 @@ Finding speed(const Subject& subject) {
         SoilPoint point(material, subject.stress);
         for (int step = 0; step < 100; ++step) // until it yields, if it does
             point.strain(increment, 1.0);
-        return 1e9 * seconds_per_update(point, increment, batch);
+        return 1e9 * seconds_per_update(point, batch).value_or(HUGE_VAL);
     };
     const double own = nanoseconds(subject.use);
+    if (!std::isfinite(own)) return left_out("it does not take its last step once more");
     const auto components = subject.registry.components();
     if (std::none_of(components.begin(), components.end(), [](const Component& c) {
             return c.declaration->kind == GAULT_MATERIAL &&

@@ -169,8 +169,9 @@ TEST(Architecture, EachThirdPartyLibraryHasItsFolders) {
     expect_only_in("udunits2", {"core/base"});
     expect_only_in("openssl/", {"core/output"});
     expect_only_in("spdlog/", {"core/base", "apps"});
-    expect_only_in("nlohmann/", {"core/output", "core/scheduler", "core/plan", "core/study"});
-    expect_only_in("Eigen/", {"core/output", "core/solver"});
+    expect_only_in("nlohmann/",
+                   {"core/output", "core/laboratory", "core/scheduler", "core/plan", "core/study"});
+    expect_only_in("Eigen/", {"core/output", "core/solver", "core/laboratory"});
     expect_only_in("CLI/", {"apps"});
     expect_only_in("fmt/", {"core", "apps"});
 }
