@@ -41,7 +41,6 @@ const Defect defects[] = {
     {"short_entry", "gault_module_v1 has 4 bytes; the host expects a gault_module of at least 24"},
     {"wrong_major", "was built for ABI major 2 (gault_module_v2); this host offers 1 (gault_module_v1)"},
     {"contradicts_its_major", "gault_module_v1 says ABI major 2; this host offers 1"},
-    {"needs_newer_minor", "needs ABI 1.3; this host offers 1.0"},
     {"wrong_magic", "gault_module_v1 begins with 0x12345678; the host expects 0x31544c47"},
     {"four_byte_reals", "gault_module_v1 says 4-byte reals; the host has 8-byte ones"},
     {"four_byte_pointers", "gault_module_v1 says 4-byte pointers; the host has 8-byte ones"},
