@@ -174,6 +174,6 @@ TEST(PluginOf1_0, UsesEveryFieldAndEveryNumberOf1_0) {
     };
     for (const std::string& field : all(layout, "FIELD\\(\\w+, (\\w+), \\d+, \\d+\\)\\n"))
         EXPECT_TRUE(is_used(field) || field == "reserved") << field;
-    for (const std::string& name : all(layout, "VALUE\\((\\w+)"))
+    for (const std::string& name : all(layout, "VALUE\\((\\w+), \\d+\\)\\n"))
         EXPECT_TRUE(is_used(name)) << name;
 }
