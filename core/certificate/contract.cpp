@@ -109,7 +109,7 @@ Finding bounds(const Subject& subject) {
                 values[i].integer = static_cast<int64_t>(std::clamp(value, -9e18, 9e18));
             gault_error error{-1, 0, -1, ""};
             void* self = nullptr;
-            const gault_status status = c.create(nullptr, values.data(), &self, &error);
+            const gault_status status = c.create(&plugin_host(), values.data(), &self, &error);
             ++tried;
             if (status == GAULT_OK) {
                 if (c.destroy) c.destroy(self);

@@ -30,8 +30,8 @@ const void* host_extension(void*, const char*) noexcept {
     return nullptr;
 }
 
-constexpr gault_host host{sizeof(gault_host), GAULT_ABI_MINOR, nullptr,       "gault",
-                          GAULT_VERSION,      host_log,        host_extension};
+constexpr gault_host this_host{sizeof(gault_host), GAULT_ABI_MINOR, nullptr,       "gault",
+                               GAULT_VERSION,      host_log,        host_extension};
 
 [[noreturn]] void fail(const Component& component, const Parameters& parameters, gault_status status,
                        const gault_error& error) {
@@ -51,6 +51,10 @@ constexpr gault_host host{sizeof(gault_host), GAULT_ABI_MINOR, nullptr,       "g
 
 } // namespace
 
+const gault_host& plugin_host() {
+    return this_host;
+}
+
 Instance::Instance(const Component& component, const Parameters& parameters) : component_(&component) {
     std::size_t declared = 0;
     while (declaration().parameters[declared])
@@ -61,7 +65,8 @@ Instance::Instance(const Component& component, const Parameters& parameters) : c
     error.parameter = -1;
     error.point = -1;
     const FloatingPointMode mode;
-    const gault_status status = declaration().create(&host, parameters.values.data(), &self_, &error);
+    const gault_status status =
+        declaration().create(&plugin_host(), parameters.values.data(), &self_, &error);
     const std::string changed = mode.restore();
     if (status != GAULT_OK) fail(component, parameters, status, error);
     if (changed.empty()) return;

@@ -5,6 +5,8 @@
 
 namespace gault::core {
 
+const gault_host& plugin_host(); // what create() is told of this program
+
 class Instance {
   public:
     // Throws InputError at the parameter's own location when the component answers INVALID.

@@ -13,6 +13,7 @@ constexpr std::uint32_t most_components = 4096; // more is taken for a count tha
 void check_state(const gault_state& s, const std::string& owner) {
     check_that(is_text(s.unit), owner, "has no unit; a pure number has the unit \"1\"");
     check_that(is_text(s.doc), owner, "has no doc");
+    check_reserved(s.reserved, owner);
     check_that(s.shape == GAULT_SCALAR || s.shape == GAULT_VECTOR || s.shape == GAULT_SYMMETRIC, owner,
                fmt::format("has the shape {}; the host knows {}, {} and {}", s.shape, +GAULT_SCALAR,
                            +GAULT_VECTOR, +GAULT_SYMMETRIC));
@@ -30,10 +31,8 @@ void check_signals(const gault_signal* signals, std::uint32_t count, const char*
         check_that(seen.insert(signals[i].name).second, name, "is declared twice");
         check_that(is_text(signals[i].unit), name, "has no unit; a pure number has the unit \"1\"");
         check_that(is_text(signals[i].doc), name, "has no doc");
-        check_that(
-            (signals[i].flags & ~known_flags) == 0 && signals[i].reserved == 0, name,
-            fmt::format("has the flags {:#x} and reserved {:#x}; of a {} the host knows the flags {:#x}",
-                        signals[i].flags, signals[i].reserved, what, known_flags));
+        check_flags(signals[i].flags, known_flags, name);
+        check_reserved(signals[i].reserved, name);
     }
 }
 
@@ -47,46 +46,46 @@ void check_fields(const char* const* names, const char* what, const std::string&
 }
 
 void check_api(const gault_material_api& api, const std::string& owner) {
+    check_flags(api.flags,
+                GAULT_HAS_TANGENT | GAULT_ONE_AT_A_TIME | GAULT_RATE_DEPENDENT | GAULT_FINITE_STRAIN, owner);
+    check_reserved(api.reserved, owner);
     check_that(api.update, owner, "has NULL as its update function");
     check_states(api.states, api.state_count, owner);
     check_fields(api.inputs, "input", owner);
 }
 
 void check_api(const gault_boundary_api& api, const std::string& owner) {
+    check_flags(api.flags,
+                GAULT_BOUNDARY_UNIFORM | GAULT_BOUNDARY_HOLDS_NORMAL | GAULT_BOUNDARY_ELASTIC_BEHIND, owner);
+    check_reserved(api.reserved, owner);
     check_that(api.constrain || api.load, owner, "has neither a constrain nor a load function");
-    constexpr uint32_t known =
-        GAULT_BOUNDARY_UNIFORM | GAULT_BOUNDARY_HOLDS_NORMAL | GAULT_BOUNDARY_ELASTIC_BEHIND;
-    check_that((api.flags & ~known) == 0, owner,
-               fmt::format("has the flags {:#x}; of a boundary the host knows {:#x}", api.flags, known));
     check_signals(api.controls, api.control_count, "control", owner);
 }
 
 void check_api(const gault_program_api& api, const std::string& owner) {
+    check_flags(api.flags, 0, owner);
     check_that(api.advance, owner, "has NULL as its advance function");
     check_that(api.signals || api.instance_signals, owner, "has neither signals nor instance_signals");
     if (api.signals) check_program_signals(api.signals, owner);
 }
 
 void check_api(const gault_observer_api& api, const std::string& owner) {
+    check_flags(api.flags, 0, owner);
     check_that(api.evaluate, owner, "has NULL as its evaluate function");
     check_signals(api.measures, api.measure_count, "measure", owner);
     check_signals(api.results, api.result_count, "result", owner);
     check_fields(api.fields, "field", owner);
 }
 
-// `first_bytes` were in ABI 1.0; what later minors append, a plugin may lack.
 template <class Api>
-void check_api_of(const gault_component& component, std::size_t first_bytes, const std::string& owner) {
+void check_api_of(const gault_component& component, std::size_t least, const std::string& owner) {
     const Api& api = *static_cast<const Api*>(component.api);
-    check_that(api.size >= first_bytes, owner,
-               fmt::format("has an api of {} bytes; the host expects at least {}", api.size, first_bytes));
+    check_size(api.size, least, owner, "an api of ");
     check_api(api, owner);
 }
-#define CHECK_API(Api, last) check_api_of<Api>(c, offsetof(Api, last) + sizeof(Api::last), name)
 
 void check_component(const gault_component& c, std::set<std::string>& seen) {
-    check_that(GAULT_HAS(&c, gault_component, extension), "a component",
-               fmt::format("has {} bytes; the host expects at least {}", c.size, sizeof c));
+    check_size(c.size, GAULT_BYTES_1_0(gault_component, extension), "a component");
     check_that(c.kind >= GAULT_MATERIAL && c.kind <= GAULT_OBSERVER, "a component",
                fmt::format("is of the unknown kind {}; the host knows {} to {}", c.kind, +GAULT_MATERIAL,
                            +GAULT_OBSERVER));
@@ -102,13 +101,14 @@ void check_component(const gault_component& c, std::set<std::string>& seen) {
     check_parameters(c.parameters, name);
     switch (c.kind) {
     case GAULT_MATERIAL:
-        return CHECK_API(gault_material_api, instance_states);
+        return check_api_of<gault_material_api>(c, GAULT_BYTES_1_0(gault_material_api, instance_states),
+                                                name);
     case GAULT_BOUNDARY:
-        return CHECK_API(gault_boundary_api, load);
+        return check_api_of<gault_boundary_api>(c, GAULT_BYTES_1_0(gault_boundary_api, load), name);
     case GAULT_PROGRAM:
-        return CHECK_API(gault_program_api, evaluate);
+        return check_api_of<gault_program_api>(c, GAULT_BYTES_1_0(gault_program_api, evaluate), name);
     default:
-        return CHECK_API(gault_observer_api, evaluate);
+        return check_api_of<gault_observer_api>(c, GAULT_BYTES_1_0(gault_observer_api, evaluate), name);
     }
 }
 
@@ -147,6 +147,21 @@ void check_name(const char* name, const std::string& owner) {
     check_that(right, owner, fmt::format("has the name '{}'; allowed: a-z, then a-z, 0-9 and _", name));
 }
 
+void check_size(std::uint32_t bytes, std::size_t least, const std::string& owner, std::string_view what) {
+    check_that(bytes >= least, owner,
+               fmt::format("has {}{} bytes; the host expects at least {}", what, bytes, least));
+}
+
+void check_flags(std::uint32_t flags, std::uint32_t known, const std::string& owner) {
+    check_that((flags & ~known) == 0, owner,
+               fmt::format("has the flags {:#x}; the host knows {:#x} here", flags, known));
+}
+
+void check_reserved(std::uint64_t reserved, const std::string& owner) {
+    check_that(reserved == 0, owner,
+               fmt::format("has {:#x} in a field that is reserved; the host expects 0", reserved));
+}
+
 void check_states(const gault_state* states, std::uint32_t count, const std::string& owner) {
     check_that(states || count == 0, owner, fmt::format("has NULL as its {} states", count));
     std::set<std::string> seen;
@@ -165,8 +180,8 @@ void check_states(const gault_state* states, std::uint32_t count, const std::str
 void check_program_signals(const gault_program_signals* signals, const std::string& owner) {
     check_that(signals, owner, "answers NULL; the host expects signals");
     const gault_program_signals& s = *signals;
-    check_that(GAULT_HAS(&s, gault_program_signals, record_count), owner,
-               fmt::format("has signals of {} bytes; the host expects at least {}", s.size, sizeof s));
+    check_size(s.size, GAULT_BYTES_1_0(gault_program_signals, record_count), owner, "signals of ");
+    check_reserved(s.reserved, owner);
     check_signals(s.measures, s.measure_count, "measure", owner);
     check_signals(s.controls, s.control_count, "control", owner, GAULT_SIGNAL_OPTIONAL);
     check_signals(s.memories, s.memory_count, "memory", owner);
@@ -180,9 +195,11 @@ void check_module(const gault_module& m, std::uint64_t symbol_bytes) {
         symbol_bytes >= frozen, owner,
         fmt::format("has {} bytes; the host expects a gault_module of at least {}", symbol_bytes, frozen));
     check_version(m);
-    check_that(GAULT_HAS(&m, gault_module, components) && m.size <= symbol_bytes, owner,
-               fmt::format("says {} bytes and has {}; the host expects at least {}", m.size, symbol_bytes,
-                           sizeof m));
+    constexpr std::size_t least = GAULT_BYTES_1_0(gault_module, components);
+    check_that(
+        m.size >= least && m.size <= symbol_bytes, owner,
+        fmt::format("says {} bytes and has {}; the host expects at least {}", m.size, symbol_bytes, least));
+    check_reserved(m.reserved, owner);
     check_that(is_text(m.name), "the module", "has no name");
     check_that(is_text(m.version), "the module", "has no version");
     check_that(m.author && m.license && m.built_with, "the module",

@@ -2,6 +2,7 @@
 #pragma once
 #include <gault/gault.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,9 +15,15 @@ void check_parameters(const gault_parameter* const* parameters, const std::strin
 void check_states(const gault_state* states, std::uint32_t count, const std::string& owner);
 void check_program_signals(const gault_program_signals* signals, const std::string& owner);
 
+// Bytes of a growing struct up to `last`, its last field in ABI 1.0: what later minors append, a plugin may lack.
+#define GAULT_BYTES_1_0(type, last) (offsetof(type, last) + sizeof(type::last))
+
 // What the checks share.
 void check_that(bool right, const std::string& owner, std::string_view otherwise); // throws "OWNER OTHERWISE"
 bool is_text(const char* text);                                                    // neither NULL nor empty
 void check_name(const char* name, const std::string& owner);                       // [a-z][a-z0-9_]*
+void check_size(std::uint32_t bytes, std::size_t least, const std::string& owner, std::string_view what = "");
+void check_flags(std::uint32_t flags, std::uint32_t known, const std::string& owner);
+void check_reserved(std::uint64_t reserved, const std::string& owner);
 
 } // namespace gault::core

@@ -63,12 +63,11 @@ void check_kinds(const gault_parameter& p, const std::string& owner, int depth) 
     std::set<std::string> seen;
     for (const gault_record_kind* const* k = p.kinds; *k; ++k) {
         const gault_record_kind& kind = **k;
-        check_that(GAULT_HAS(&kind, gault_record_kind, parameters), owner,
-                   fmt::format("has a record kind of {} bytes; the host expects at least {}", kind.size,
-                               sizeof kind));
+        check_size(kind.size, GAULT_BYTES_1_0(gault_record_kind, parameters), owner, "a record kind of ");
         check_name(kind.name, owner + ": a record kind");
         const std::string name = fmt::format("{}: record kind '{}'", owner, kind.name);
         check_that(seen.insert(kind.name).second, name, "is declared twice");
+        check_reserved(kind.reserved, name);
         check_that(is_text(kind.doc), name, "has no doc");
         check_list(kind.parameters, name, depth + 1);
     }
@@ -78,6 +77,8 @@ void check_parameter(const gault_parameter& p, const std::string& owner, int dep
     check_that(
         p.type >= GAULT_REAL && p.type <= GAULT_RECORDS, owner,
         fmt::format("has the unknown type {}; the host knows {} to {}", p.type, +GAULT_REAL, +GAULT_RECORDS));
+    check_flags(p.flags, GAULT_REQUIRED | GAULT_OPTIONAL | GAULT_MIN_OPEN | GAULT_MAX_OPEN, owner);
+    check_reserved(p.reserved, owner);
     check_that(is_text(p.doc), owner, "has no doc");
     check_that(p.symbol, owner, "has NULL as its symbol; the host expects a text, which may be empty");
     check_that(!has_bounds(p) || is_text(p.unit), owner, "has no unit; a pure number has the unit \"1\"");
@@ -97,9 +98,7 @@ void check_list(const gault_parameter* const* parameters, const std::string& own
     std::set<std::string> seen;
     for (; *parameters; ++parameters) {
         const gault_parameter& p = **parameters;
-        check_that(
-            GAULT_HAS(&p, gault_parameter, max_count), owner,
-            fmt::format("has a parameter of {} bytes; the host expects at least {}", p.size, sizeof p));
+        check_size(p.size, GAULT_BYTES_1_0(gault_parameter, max_count), owner, "a parameter of ");
         check_name(p.name, owner + ": a parameter");
         const std::string name = fmt::format("{}: parameter '{}'", owner, p.name);
         check_that(seen.insert(p.name).second, name, "is declared twice");

@@ -109,16 +109,3 @@ TEST(PluginInC, IsDescribedFromTheFileAlone) {
               std::string::npos)
         << text;
 }
-
-TEST(PluginOfAnotherMinor, IsLoadedWithAnApiAsShortAsTheFirstOrLongerThanTheHosts) {
-    const Registry registry({CONTRACT_DIR "/other_minors"});
-    const auto api_bytes = [&](gault_kind kind, const char* name) {
-        return *static_cast<const std::uint32_t*>(registry.find(kind, name).declaration->api);
-    };
-    EXPECT_EQ(api_bytes(GAULT_MATERIAL, "first_material"), 56u);
-    EXPECT_EQ(api_bytes(GAULT_BOUNDARY, "first_boundary"), 40u);
-    EXPECT_EQ(api_bytes(GAULT_PROGRAM, "first_program"), 40u);
-    EXPECT_EQ(api_bytes(GAULT_OBSERVER, "first_observer"), 48u);
-    EXPECT_GT(api_bytes(GAULT_MATERIAL, "later_material"), sizeof(gault_material_api));
-    EXPECT_GT(api_bytes(GAULT_PROGRAM, "later_program"), sizeof(gault_program_api));
-}

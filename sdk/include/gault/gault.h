@@ -7,8 +7,9 @@
  * Rules of the contract
  *   1. A plugin exports exactly one symbol, GAULT_ENTRY_SYMBOL: a const struct gault_module.
  *   2. A struct marked [frozen] never changes within an ABI major.
- *      A struct marked [grows] starts with `size`; fields are only ever appended; whoever reads a field added
- *      after 1.0 does so through GAULT_HAS. Lists of growing structs are lists of pointers.
+ *      A struct marked [grows] starts with `size`; fields are only ever appended, without padding; whoever reads a
+ *      field added after 1.0 does so through GAULT_HAS. Lists of growing structs are lists of pointers.
+ *      What is `reserved` is 0. A host refuses flags, kinds and types that it does not know. See sdk/ABI.md.
  *   3. Every function carries a thread tag:
  *        [main]    the host's main thread, never concurrent with any other call into the module
  *        [worker]  any worker thread; concurrent on the same instance, with disjoint points
@@ -20,6 +21,7 @@
  *      z is out of plane. A model never asks which it is.
  *   7. A plugin is logic over arrays that the host owns. What must survive a checkpoint was declared: material
  *      state, program memory. `self` holds parameters and what follows from them, and is read-only after create.
+ *   8. What a function is passed, structs, arrays and texts, is borrowed for the call; gault_host alone stays.
  */
 #ifndef GAULT_H
 #define GAULT_H
@@ -48,14 +50,14 @@ extern "C" {
 #define GAULT_HAS(ptr, type, field) ((ptr)->size >= offsetof(type, field) + sizeof((ptr)->field))
 
 /* Lengths of arrays of points, nodes and facets are multiples of GAULT_LANES. */
-enum { GAULT_LANES = 8, GAULT_TEXT = 512 };
+enum { GAULT_LANES = 8, GAULT_TEXT = 512 }; /* for the whole ABI major */
 
 typedef uint32_t gault_status;
 enum {
     GAULT_OK = 0,
-    GAULT_RETRY = 1,   /* admissible, but the increment was too large: see `suggest` of the struct in hand */
+    GAULT_RETRY = 1,   /* of update() and advance(): admissible, but the increment was too large: see `suggest` */
     GAULT_INVALID = 2, /* bad parameter or configuration: see gault_error.parameter */
-    GAULT_FAILED = 3   /* no result can be produced: see gault_error.point */
+    GAULT_FAILED = 3   /* no result can be produced: see gault_error.point. Any other status counts as this one */
 };
 
 typedef struct gault_error { /* [frozen] caller-owned, one per call, never shared between threads */
@@ -141,7 +143,7 @@ typedef struct gault_host { /* [grows] valid from create() until exit */
     void *self;
     const char *name, *version;
     void (*log)(void *self, gault_level level, const char *text) GAULT_NOEXCEPT; /* [any] */
-    const void *(*extension)(void *self, const char *id) GAULT_NOEXCEPT;         /* [any] NULL if unknown */
+    const void *(*extension)(void *self, const char *id) GAULT_NOEXCEPT; /* [any] NULL if unknown; until exit */
 } gault_host;
 
 /* ---- module and components ---------------------------------------------------------------------------- */
@@ -158,9 +160,10 @@ typedef struct gault_component { /* [grows] */
     const char *reference; /* citation or DOI; may be "" */
     const gault_parameter *const *parameters; /* NULL-terminated */
     const void *api; /* gault_material_api, gault_boundary_api, ... according to kind */
+    /* Unless it answers OK, nothing is left to destroy. A self that is NULL is right, and is never destroyed. */
     gault_status (*create)(const gault_host *, const gault_value *, void **self, gault_error *) GAULT_NOEXCEPT; /* [main] */
     void (*destroy)(void *self) GAULT_NOEXCEPT;              /* [main] */
-    const void *(*extension)(const char *id) GAULT_NOEXCEPT; /* [any] may be NULL; ids are "name/revision" */
+    const void *(*extension)(const char *id) GAULT_NOEXCEPT; /* [any] may be NULL; ids are "name/revision"; until exit */
 } gault_component;
 
 typedef struct gault_module {      /* the first 24 bytes are [frozen] for ever; the rest [grows] */
@@ -181,7 +184,7 @@ enum { GAULT_SIGNAL_OPTIONAL = 1u << 0 }; /* a program's control: where nobody l
 typedef struct gault_signal { /* [frozen] a named scalar: measured, commanded, remembered or recorded */
     const char *name, *unit, *doc;
     double initial;
-    uint32_t flags, reserved; /* 0, as far as nothing here says otherwise; a host refuses what it does not know */
+    uint32_t flags, reserved; /* flags: 0, as far as nothing here says otherwise */
 } gault_signal;
 
 /* ---- kind: material ----------------------------------------------------------------------------------- */
@@ -223,7 +226,7 @@ typedef struct gault_points { /* [grows] */
 
 enum {
     GAULT_HAS_TANGENT = 1u << 0,   /* fills `tangent`; otherwise an implicit solver differentiates numerically */
-    GAULT_ONE_AT_A_TIME = 1u << 1, /* legacy code with global state: the host never calls it concurrently */
+    GAULT_ONE_AT_A_TIME = 1u << 1, /* legacy code with global state: the host never calls two such models at once */
     GAULT_RATE_DEPENDENT = 1u << 3, /* answers differently at another rate: without inertia the host keeps steps short
                                        enough to follow how strain goes on in time */
     GAULT_FINITE_STRAIN = 1u << 2  /* wants F; stress_old and states come unrotated, and it returns Cauchy stress */
@@ -344,7 +347,7 @@ typedef struct gault_history { /* [grows] what a finished run emitted */
     const double *const *column; /* time, s, then the records in declared order; each `rows` long */
 } gault_history;
 
-/* Takes results one by one; texts are copied. Names are [a-z][a-z0-9_]*, each at most once. */
+/* Takes results one by one, [main]. Names are [a-z][a-z0-9_]*, each at most once. */
 typedef struct gault_report { /* [grows] */
     uint32_t size;
     uint32_t reserved;

@@ -1,0 +1,2 @@
+#define API .flags = 0x10
+#include "tiny.h"

@@ -1,0 +1,2 @@
+#define MODULE .reserved = 1
+#include "tiny.h"

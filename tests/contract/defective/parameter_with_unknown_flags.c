@@ -1,0 +1,2 @@
+#define PARAMETER .flags = 0x10
+#include "tiny.h"
