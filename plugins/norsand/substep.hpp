@@ -66,10 +66,11 @@ GAULT_INLINE Trial try_elastically(const Sand& sand, const State& from, const In
     t.friction = friction(sand, t.deviator, t.pressure);
 
     const Pack psi = state_parameter(sand, t.pressure, void_ratio);
-    t.image = min(from.image, t.pressure * exp(largest_log_ratio(sand, psi)));
+    t.image = from.image;
     const Image at = image_at(sand, state_parameter(sand, t.image, void_ratio));
     t.m = t.friction * at.shape;
-    t.yields = t.size > t.m * t.pressure * (1.0 + log(t.image / t.pressure));
+    t.yields = (t.size > t.m * t.pressure * (1.0 + log(t.image / t.pressure))) |
+               (t.size > t.friction * t.pressure * strength(sand, psi));
     t.bend = image_bend(sand, at) / at.shape;
     t.hardening = max(1.0, sand.hardening - sand.slope * psi) * t.friction / sand.ratio;
     t.limit = exp(at.limit);
@@ -109,17 +110,20 @@ GAULT_INLINE Candidate candidate(const Trial& t, Pack z) {
     return c;
 }
 
-// Newton's method; by bisection where it leaves what is known to hold the root or does not halve its steps.
+// Newton's method; by bisection where it leaves what is known to hold the root or does not halve its steps. No more than
+// what is elastic, where p_i is beyond what counts.
 inline Pack solve(const Trial& t, Mask wanted) {
     constexpr int most_iterations = 80;
     constexpr double close = 1e-9; // the step from here squares the error
+    const Pack elastic = t.size / (t.m * t.pressure);
     const Candidate end = candidate(t, 0.0);
     const Mask tip = end.residual >= 0.0;
     Pack low = select(tip, log(least_pressure / end.pressure) - 1.0, 0.0);
-    Pack high = select(tip, 0.0, t.size / (t.m * t.pressure));
-    Pack z = max(low, min(high, 1.0 + log(t.image / t.pressure)));
+    Pack high = select(tip, 0.0, elastic);
+    const Pack start = 1.0 + log(t.image / t.pressure);
+    Mask open = wanted & (start < elastic);
+    Pack z = select(open, max(low, min(high, start)), elastic);
     Pack move = high - low;
-    Mask open = wanted;
     for (int i = 0; i < most_iterations && any(open); ++i) {
         const Candidate c = candidate(t, z);
         low = select(c.residual <= 0.0, z, low);
@@ -132,6 +136,17 @@ inline Pack solve(const Trial& t, Mask wanted) {
         open = open & (move > close * max(abs(z), 1e-3));
     }
     return z;
+}
+
+// The return, within the strength of the density at the pressure where it ends.
+inline Candidate return_to_surface(const Sand& sand, const Trial& t, Pack void_ratio) {
+    const Pack z = solve(t, t.yields);
+    Candidate c = candidate(t, z);
+    for (int i = 0; i < 3; ++i) { // the strength hardly depends on the pressure
+        const Pack most = strength(sand, state_parameter(sand, c.pressure, void_ratio));
+        c = candidate(t, min(z, t.friction / t.m * most));
+    }
+    return c;
 }
 
 // Puts p_i where the surface passes through the stress, and the stress within the strength of the density.
@@ -152,7 +167,7 @@ inline State step(const Sand& sand, const State& from, const Increment& by, Pack
     const Trial t = try_elastically(sand, from, by, void_ratio);
     State to{t.pressure, t.deviator, from.image, from.plastic_strain, t.yields};
     if (any(t.yields)) {
-        const Candidate c = candidate(t, solve(t, t.yields));
+        const Candidate c = return_to_surface(sand, t, void_ratio);
         const Pack scale = c.size / max(t.size, 1e-300);
         to.pressure = select(t.yields, c.pressure, t.pressure);
         for (int i = 0; i < 6; ++i)

@@ -51,7 +51,7 @@ GAULT_INLINE Pack state_parameter(const Sand& sand, Pack p, Pack void_ratio) {
 // M(theta) of Jefferies and Shuttle (2011): cos(1.5 theta + 45 deg) is the root of (1 - sin 3 theta)/2. The edge at
 // triaxial compression is rounded within 1e-4 of it, and next to the isotropic axis theta counts as 0.
 GAULT_INLINE Pack friction(const Sand& sand, const SymmetricTensor& s, Pack p) {
-    constexpr double edge = 1e-4, axis = 1e-5;
+    constexpr double edge = 1e-4, axis = 1e-7;
     const auto& [xx, yy, zz, xy, yz, zx] = s;
     const Pack j2 = 0.5 * inner(s, s) + (axis * p) * (axis * p);
     const Pack j3 = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
