@@ -9,7 +9,8 @@ struct Row { // nominal axial strain; kPa
 };
 
 // NorTxl2_r4 of Jefferies and Been for Nerlerk 270/1 sand, psi_0 = 0.108 at 500 kPa, OCR 1: what it computed for a drained and
-// an undrained test (with additional softening), as published with the UMAT of Zambrano-Cruzatty (NorSand-VT).
+// an undrained test (with additional softening), as published with the UMAT of Zambrano-Cruzatty (NorSand-VT). H, lambda_10,
+// the step and the water follow from the numbers, of which there are some thousands.
 constexpr Row drained_sheet[] = {{0.01008470498, 593.9434122, 281.8302367, 0.83911263, 0.526907035},
                                  {0.03006073933, 690.6730874, 572.0192621, 0.81882844, 0.682922114},
                                  {0.07750705508, 793.7564745, 881.2694234, 0.788727032, 0.825074732},
