@@ -37,7 +37,7 @@ TEST_P(Undrained, CavityInClayHasTheExactPressureAndPorePressure) {
                fmt::format("{{model: mohr_coulomb, density: 1900 kg/m^3, young_modulus: 12.5 MPa, "
                            "poisson_ratio: 0.25, cohesion: {} Pa, friction_angle: 0 deg, "
                            "dilation_angle: 0 deg, pore_water: {{bulk_modulus: 2.2 GPa, porosity: 45 %, "
-                           "pressure: {} Pa}}}}",
+                           "initial_pressure: {} Pa}}}}",
                            su, u0)}});
     HardScene s("hard/clay_cavity", clay);
     s.run();
@@ -68,12 +68,12 @@ TEST_P(Undrained, CavityInClayHasTheExactPressureAndPorePressure) {
 
 // The model's start() sees the effective stress.
 TEST_P(Undrained, ModelStartsFromTheEffectiveStress) {
-    const HardScene s(
-        "hard/clay_cavity",
-        with({{"materials.clay",
-               "{model: modified_cam_clay, density: 1900 kg/m^3, critical_state_ratio: 1.2, "
-               "compression_index: 0.15, swelling_index: 0.03, poisson_ratio: 0.278, "
-               "critical_state_volume: 2.74, overconsolidation_ratio: 3, pore_water: {pressure: 40 kPa}}"}}));
+    const HardScene s("hard/clay_cavity",
+                      with({{"materials.clay",
+                             "{model: modified_cam_clay, density: 1900 kg/m^3, critical_state_ratio: 1.2, "
+                             "compression_index: 0.15, swelling_index: 0.03, poisson_ratio: 0.278, "
+                             "critical_state_volume: 2.74, overconsolidation_ratio: 3, pore_water: "
+                             "{initial_pressure: 40 kPa}}"}}));
     for (const double p : collect_state(s.solver.motion(), "preconsolidation_pressure"))
         EXPECT_NEAR(p, 3.0 * (p0 - u0), 1e-6 * p0);
 }
