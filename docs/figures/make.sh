@@ -10,3 +10,4 @@ trap 'rm -rf "$results"' EXIT
 /usr/bin/python3 apps/plot.py "$results/fahey" -o docs/figures/fahey.png --measured 655
 /usr/bin/python3 docs/figures/convergence.py
 /usr/bin/python3 docs/figures/accuracy.py
+/usr/bin/python3 docs/figures/biaxial.py
