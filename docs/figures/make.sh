@@ -12,3 +12,4 @@ trap 'rm -rf "$results"' EXIT
 cp "$results/element/element.png" docs/figures/element.png
 /usr/bin/python3 docs/figures/convergence.py
 /usr/bin/python3 docs/figures/accuracy.py
+/usr/bin/python3 docs/figures/biaxial.py
