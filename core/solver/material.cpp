@@ -221,9 +221,11 @@ void fill_inputs(const Material& material, gault_points& p, const BatchView& vie
             std::copy_n(view.volume_ratio, n, column);
             break;
         case HostField::characteristic_length:
-            for (std::size_t page = 0; page < n / page_slots; ++page) // all of a page are in one cell
+            for (std::size_t page = 0; page < n / page_slots; ++page) { // all of a page are in one cell
+                const double length = grid.x.length[view.column[page]];
                 std::fill_n(column + page * page_slots, page_slots,
-                            std::sqrt(grid.x.length[view.column[page]] * grid.y.length[view.cell_row]));
+                            grid.radial ? length : std::sqrt(length * grid.y.length[view.cell_row]));
+            }
             break;
         }
         workspace.inputs.push_back(column);

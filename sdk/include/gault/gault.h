@@ -233,7 +233,8 @@ enum {
 };
 
 /* Host fields that `inputs` may name (scalars): "density" kg/m^3, current; "volume_ratio" 1, current over initial;
- * "characteristic_length" m, of the grid cell that holds the point, for regularised softening. */
+ * "characteristic_length" m, of the grid cell that holds the point (the root of its area; in radial symmetry its length along
+ * the radius), for regularised softening. */
 typedef struct gault_material_api { /* [grows] */
     uint32_t size;
     uint32_t flags;
