@@ -6,7 +6,9 @@ namespace {
 
 class TrueRate : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Starts, TrueRate, testing::Values("ramp_time: 1 ns", "ramp_strain: 0.05 %"),
-                         [](const auto& info) { return std::string(info.index == 0 ? "AtOnce" : "Smooth"); });
+                         [](const auto& instance) {
+                             return std::string(instance.index == 0 ? "AtOnce" : "Smooth");
+                         });
 
 // Ten times slower than SmoothStart.IsForgottenAtTenPercent: the wave is a tenth, 0.44 kPa, and so is what it leaves.
 TEST_P(TrueRate, HasTheExactPressureAtTenPercent) {
