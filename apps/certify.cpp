@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace gault::app {
 namespace {
@@ -58,6 +59,14 @@ core::Sample sample(const Arguments& arguments, const std::string& model, const 
     }
 }
 
+// Where linear_elastic is installed, as it is with the program.
+std::optional<core::MaterialUse> yardstick(const core::Registry& registry) try {
+    return core::material_from("linear_elastic", {{"young_modulus", "100 MPa"}, {"poisson_ratio", "0.25"}},
+                               registry);
+} catch (const core::InputError&) {
+    return std::nullopt;
+}
+
 void check_names(const std::vector<std::string>& only) {
     std::vector<std::string> names;
     for (const core::Check& check : core::all_checks())
@@ -75,7 +84,9 @@ int certify(const Arguments& arguments) {
     const core::Registry registry(core::plugin_search_path(first, arguments.plugin_path));
     const core::Component& model = chosen(registry, arguments);
     const core::Sample soil = sample(arguments, model.declaration->name, registry);
-    const core::Subject subject{registry, soil.material, soil.stress};
+    const std::optional<core::MaterialUse> elastic = yardstick(registry);
+    const core::Subject subject{registry, soil.material, soil.stress, shared_file("cavity.yaml"),
+                                elastic ? &*elastic : nullptr};
     fmt::print("{} {}, {}\n", model.declaration->name, model.declaration->version, model.file.string());
     std::fflush(stdout); // before processes are made
     const auto results = core::certify(subject, arguments.only, arguments.time_limit);

@@ -26,11 +26,12 @@ std::vector<core::Override> joined(std::vector<core::Override> all, const std::v
 
 } // namespace
 
-void SceneArguments::declare(CLI::App& options) {
-    options.add_option("scene", file, "The scene, a YAML file")->required()->type_name("FILE");
+void SceneArguments::declare(CLI::App& options, const std::string& what) {
+    options.add_option(what, file, "The " + what + ", a YAML file")->required()->type_name("FILE");
     options
         .add_option("--set", set,
-                    "Overrides a key of the scene; dots for maps, numbers for list items. May be repeated")
+                    "Overrides a key of the " + what +
+                        "; dots for maps, numbers for list items. May be repeated")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
     declare_plugin_path(options, plugin_path);
@@ -50,11 +51,13 @@ LoadedElementTest::LoadedElementTest(const SceneArguments& arguments)
                                          arguments.plugin_path)),
       test_(core::read_element_test(arguments.file, overrides(arguments.set), registry_)) {}
 
+std::filesystem::path shared_file(const std::string& name) {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/gault" / name;
+}
+
 void run_script(const std::string& script, std::vector<std::string> arguments,
                 const std::filesystem::path& folder) {
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-    const std::filesystem::path file = program.parent_path().parent_path() / "share/gault" / script,
-                                said = folder / (script + ".log");
+    const std::filesystem::path file = shared_file(script), said = folder / (script + ".log");
     arguments.insert(arguments.begin(), {"/usr/bin/python3", file.string()});
     if (core::run_child(arguments, said).status == 0)
         std::filesystem::remove(said);

@@ -42,7 +42,7 @@ struct SceneArguments {
     std::vector<std::string> set;
     std::vector<std::filesystem::path> plugin_path;
 
-    void declare(CLI::App& options);
+    void declare(CLI::App& options, const std::string& what = "scene");
 };
 
 // A scene as read, with the plugins that it needs.
@@ -79,6 +79,9 @@ class LoadedElementTest {
 
 // Leaves all that a plan may choose open.
 std::vector<core::Override> everything_open();
+
+// In share/gault, from the executable ../share/gault.
+std::filesystem::path shared_file(const std::string& name);
 
 // A script of share/gault with /usr/bin/python3. Where that fails: a warning, and what it said in FOLDER/SCRIPT.log.
 void run_script(const std::string& script, std::vector<std::string> arguments,

@@ -1,13 +1,11 @@
 #include "apps/command.hpp"
 #include "core/base/log.hpp"
-#include "core/laboratory/element_test.hpp"
-#include "core/output/atomic_file.hpp"
-#include "core/output/history.hpp"
+#include "core/laboratory/element_results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 
@@ -23,18 +21,6 @@ struct Arguments {
     std::string output;
     bool force = false, quiet = false, no_figure = false;
 };
-
-nlohmann::json provenance(const core::ElementTest& test, const std::string& command_line) {
-    const core::Component& soil = *test.material.model.component;
-    return {{"program", std::string("gault ") + GAULT_VERSION},
-            {"command", command_line},
-            {"test", fs::absolute(test.file).string()},
-            {"test_sha256", core::sha256_of_file(test.file)},
-            {"soil", soil.declaration->name},
-            {"version", soil.declaration->version},
-            {"file", soil.file.string()},
-            {"sha256", core::sha256_of_file(soil.file)}};
-}
 
 // A replayed call answers at once, and writes nothing.
 int print_replay(const core::ElementTest& test) {
@@ -61,53 +47,48 @@ int print_replay(const core::ElementTest& test) {
     return 0;
 }
 
+void draw(const core::ElementTest& test, const fs::path& folder, bool over_time) {
+    std::vector<std::string> words = {(folder / "history.csv").string(), "--title=" + test.title,
+                                      "--output=" + (folder / "element.png").string()};
+    if (over_time) words.emplace_back("--time");
+    run_script("element.py", words, folder);
+}
+
 int element(const Arguments& arguments, const std::string& command_line) {
     const LoadedElementTest loaded(arguments.test);
     const core::ElementTest& test = *loaded;
     if (test.replay) return print_replay(test);
     const fs::path folder =
         arguments.output.empty() ? fs::path("out") / test.file.stem() : fs::path(arguments.output);
-    if (!arguments.force && fs::exists(folder / "summary.json"))
-        throw core::InputError(fmt::format("'{}' holds results; --force replaces them", folder.string()));
     core::ElementRun run(test);
-    fs::create_directories(folder);
-    core::HistoryFile history(folder / "history.csv", run.columns());
-    nlohmann::json summary = {{"status", "done"},
-                              {"title", test.title},
-                              {"provenance", provenance(test, command_line)},
-                              {"test", test.yaml}};
+    core::ElementResults results(folder, arguments.force, run.columns());
+    core::ElementResults::End end{"", std::string("gault ") + GAULT_VERSION, command_line, 0.0, {}};
     const auto start = std::chrono::steady_clock::now();
     const auto conclude = [&] {
-        history.sync();
-        summary["counts"] = {{"stages", test.stages.size()},
-                             {"steps", run.steps()},
-                             {"newton_iterations", run.iterations()},
-                             {"constitutive_updates", run.point().updates()}};
-        summary["wall_seconds"] =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        core::write_atomically(folder / "summary.json", summary.dump(2) + "\n");
-        if (!arguments.no_figure)
-            run_script("element.py",
-                       {(folder / "history.csv").string(), "-t", test.title, "-o",
-                        (folder / "element.png").string()},
-                       folder);
+        results.finish(test, run, end);
+        if (!arguments.no_figure) draw(test, folder, run.point().material().rate_dependent());
+    };
+    const auto stop_the_clock = [&] {
+        end.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     try {
-        run.go([&](const std::vector<double>& row) { history.append(row); });
+        run.go([&](const std::vector<double>& row) { results.row(row); });
     } catch (const core::RunError& error) {
-        summary["status"] = "failed";
-        summary["message"] = error.what();
+        stop_the_clock();
+        end.message = error.what();
         conclude();
         throw;
     }
-    const double seconds = core::seconds_per_update(run.point(), run.last_increment(), batch);
-    summary["nanoseconds_per_update"] = 1e9 * seconds;
+    stop_the_clock();
+    end.seconds_per_update = core::seconds_per_update(run.point(), batch);
     conclude();
     if (arguments.quiet) return 0;
     core::log::info("{} stages, {} steps, {} iterations", test.stages.size(), run.steps(), run.iterations());
-    core::log::info(
-        "the soil by itself: {:.1f} ns a point in batches of {}, {:.1f} M updates/s on one thread",
-        1e9 * seconds, batch, 1e-6 / seconds);
+    if (end.seconds_per_update)
+        core::log::info(
+            "the soil alone: {:.1f} ns a point, {:.1f} M points/s on one thread (the last step, by "
+            "{} points at once)",
+            1e9 * *end.seconds_per_update, 1e-6 / *end.seconds_per_update, batch);
     core::log::info("results in {}", folder.string());
     return 0;
 }
@@ -116,7 +97,7 @@ int element(const Arguments& arguments, const std::string& command_line) {
 
 Action declare_element(CLI::App& options) {
     const auto arguments = std::make_shared<Arguments>();
-    arguments->test.declare(options);
+    arguments->test.declare(options, "test");
     options.add_option("-o,--output", arguments->output, "Folder of the results (default: out/NAME_OF_TEST)")
         ->type_name("FOLDER");
     options.add_flag("--force", arguments->force, "Replaces the results that the folder holds");

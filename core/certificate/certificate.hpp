@@ -14,6 +14,9 @@ struct Subject {              // of a certificate
     const Registry& registry; // with what the cavity needs beside the soil
     const MaterialUse& use;
     Tensor stress; // initial, Pa, tension positive
+    std::filesystem::path cavity =
+        {}; // a scene of a cavity, whose material `soil` the model takes the place of
+    const MaterialUse* yardstick = nullptr; // linear elasticity, for the cost of a point
 };
 
 struct Finding {

@@ -3,6 +3,7 @@
 #include "core/config/overrides.hpp"
 #include "core/config/reader.hpp"
 #include "core/config/sections.hpp"
+#include "core/registry/declared.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,8 +16,10 @@ namespace {
 enum Component6 { xx, yy, zz, xy, yz, zx };
 const std::vector<std::string> component_names = {"xx", "yy", "zz", "xy", "yz", "zx"};
 constexpr int deepest_cycle = 8;
+constexpr Bounds strain_bounds{.min = -10.0, .max = 10.0};
 
 using Constraints = std::array<Constraint, 6>;
+using NamedNumbers = std::map<std::string, std::vector<double>>;
 
 std::array<double, 6> unit(int component, double value = 1.0) {
     std::array<double, 6> e{};
@@ -53,7 +56,9 @@ std::string exactly_one(const Fields& fields, const std::vector<std::string>& ke
                              fields.path(key) + " contradicts " + fields.path(found) + "; write one of them");
         found = key;
     }
-    if (found.empty()) throw InputError(fields.where(), fields.path() + " needs one of: " + all);
+    if (found.empty())
+        throw InputError(fields.where(),
+                         (fields.path().empty() ? "the file" : fields.path()) + " needs one of: " + all);
     return found;
 }
 
@@ -62,7 +67,7 @@ double pressure(const Fields& fields, const std::string& key) {
     return -fields.quantity(key, "Pa", {});
 }
 double shortening(const Fields& fields, const std::string& key) {
-    return -fields.quantity(key, "1", {.min = -10.0, .max = 10.0});
+    return -fields.quantity(key, "1", strain_bounds);
 }
 
 bool is_undrained(const Fields& fields) {
@@ -141,7 +146,7 @@ void read_true_triaxial(const Fields& fields, ElementStage& stage) {
 // {strain: {yy: 5 %}, stress: {xx: 100 kPa, zz: held}}; shear strains that are not named stay.
 void read_mixed(const Fields& fields, ElementStage& stage) {
     std::array<bool, 6> given{};
-    const auto read = [&](const char* key, const std::string& dimension, auto make) {
+    const auto read = [&](const char* key, const std::string& dimension, const Bounds& bounds, auto make) {
         const Fields part = fields.section(key, component_names);
         for (std::size_t k = 0; k < 6; ++k) {
             const Node* node = part.find(component_names[k]);
@@ -151,13 +156,14 @@ void read_mixed(const Fields& fields, ElementStage& stage) {
                                                     " is prescribed already: strain or stress, not both");
             given[k] = true;
             const bool held = node->kind == NodeKind::scalar && node->text == "held";
-            stage.constraints[k] = make(
-                static_cast<int>(k), held ? std::optional<double>()
-                                          : -read_quantity(*node, part.path(component_names[k]), dimension));
+            std::optional<double> end;
+            if (!held) end = -read_quantity(*node, part.path(component_names[k]), dimension, bounds);
+            stage.constraints[k] = make(static_cast<int>(k), end);
         }
     };
-    read("strain", "1", [](int k, std::optional<double> end) { return strain(k, end.value_or(0.0)); });
-    read("stress", "Pa", [](int k, std::optional<double> end) { return stress(k, end); });
+    read("strain", "1", strain_bounds,
+         [](int k, std::optional<double> end) { return strain(k, end.value_or(0.0)); });
+    read("stress", "Pa", {}, [](int k, std::optional<double> end) { return stress(k, end); });
     for (std::size_t k = 0; k < 6; ++k) {
         if (given[k]) continue;
         if (k < 3)
@@ -248,73 +254,120 @@ class StageReader {
         steps_ += stage.steps;
         if (steps_ > most_element_steps)
             throw InputError(where, fmt::format("more than {} steps in all", most_element_steps));
+        if (stages_.size() == most_element_stages)
+            throw InputError(where,
+                             fmt::format("more than {} stages, cycles written out", most_element_stages));
         stages_.push_back(std::move(stage));
     }
 };
 
-std::vector<double> read_numbers(const Node& node, const std::string& path, std::size_t count) {
+// `count` numbers, a single one without brackets.
+std::vector<double> read_numbers(const Node& node, const std::string& path, std::size_t count,
+                                 const std::string& unit = "1", const Bounds& bounds = {}) {
     const auto items = one_or_more(node);
-    if (count && items.size() != count)
+    if (items.size() != count)
         throw InputError(node.where(),
                          fmt::format("{} has {} values; it must have {}", path, items.size(), count));
     std::vector<double> values;
-    for (std::size_t i = 0; i < items.size(); ++i)
-        values.push_back(read_quantity(*items[i], path + "." + std::to_string(i), "1"));
+    for (const Node* item : items)
+        values.push_back(read_quantity(*item, path, unit, bounds));
     return values;
 }
 
 template <std::size_t N>
-std::array<double, N> read_array(const Node& node, const std::string& path) {
-    const std::vector<double> values = read_numbers(node, path, N);
+std::array<double, N> read_array(const Fields& fields, const std::string& key, const std::string& meaning) {
+    const std::vector<double> values = read_numbers(fields.require(key, meaning), fields.path(key), N);
     std::array<double, N> array;
     std::copy(values.begin(), values.end(), array.begin());
     return array;
 }
 
-std::map<std::string, std::vector<double>> read_named_numbers(const Fields& fields, const std::string& key) {
-    std::map<std::string, std::vector<double>> all;
-    const Node* map = fields.find(key);
-    if (map == nullptr) return all;
-    require_kind(*map, NodeKind::map, fields.path(key));
-    for (std::size_t i = 0; i < map->keys.size(); ++i)
-        all[map->keys[i].text] = read_numbers(map->items[i], fields.path(key) + "." + map->keys[i].text, 0);
+// Of a person, within the bounds of the state and with its unit; of a machine, bare numbers, whatever they were.
+NamedNumbers read_states(const Fields& parent, const MaterialUse& soil, bool of_a_person) {
+    if (parent.find("states") == nullptr) return {};
+    const Instance instance(*soil.model.component, soil.model.parameters);
+    const auto states = material_states(instance);
+    std::vector<std::string> names;
+    for (const gault_state& state : states)
+        names.emplace_back(state.name);
+    const Fields fields = parent.section("states", names);
+    NamedNumbers all;
+    for (const gault_state& state : states)
+        if (const Node* node = fields.find(state.name))
+            all[state.name] =
+                read_numbers(*node, fields.path(state.name), state.shape, of_a_person ? state.unit : "1",
+                             of_a_person ? Bounds{.min = state.min, .max = state.max} : Bounds{});
     return all;
 }
 
-ElementReplay read_replay(const Node& node) {
-    const Fields fields(node, "replay",
-                        {"stress", "strain", "states", "inputs", "F_old", "F_new", "time", "dt"});
+NamedNumbers read_inputs(const Fields& parent, const char* const* asked_for) {
+    std::vector<std::string> names;
+    for (; asked_for && *asked_for; ++asked_for)
+        names.emplace_back(*asked_for);
+    const Fields fields = parent.section("inputs", names);
+    NamedNumbers all;
+    for (const std::string& name : names)
+        if (const Node* node = fields.find(name)) all[name] = read_numbers(*node, fields.path(name), 1);
+    return all;
+}
+
+ElementReplay read_replay(const Node& node, const MaterialUse& soil) {
+    const auto& api = *static_cast<const gault_material_api*>(soil.model.component->declaration->api);
+    std::vector<std::string> keys = {"stress", "strain", "states", "inputs", "time", "dt"};
+    if (api.flags & GAULT_FINITE_STRAIN) keys.insert(keys.end(), {"F_old", "F_new"});
+    const Fields fields(node, "replay", keys);
     ElementReplay replay;
-    replay.stress =
-        read_array<6>(fields.require("stress", "six numbers, Pa, tension positive"), "replay.stress");
-    replay.strain =
-        read_array<6>(fields.require("strain", "six increments, tension positive"), "replay.strain");
-    replay.states = read_named_numbers(fields, "states");
-    replay.inputs = read_named_numbers(fields, "inputs");
-    if (const Node* f = fields.find("F_old")) replay.F_old = read_array<9>(*f, "replay.F_old");
-    if (const Node* f = fields.find("F_new")) replay.F_new = read_array<9>(*f, "replay.F_new");
+    replay.stress = read_array<6>(fields, "stress", "six numbers, Pa, tension positive");
+    replay.strain = read_array<6>(fields, "strain", "six increments, tension positive");
+    replay.states = read_states(fields, soil, false);
+    replay.inputs = read_inputs(fields, api.inputs);
+    if (api.flags & GAULT_FINITE_STRAIN) {
+        replay.F_old = read_array<9>(fields, "F_old", "the deformation gradient before, row by row");
+        replay.F_new = read_array<9>(fields, "F_new", "the deformation gradient after, row by row");
+    }
     replay.time = fields.quantity("time", "s", {}, replay.time);
     replay.dt = fields.quantity("dt", "s", not_negative, replay.dt);
     return replay;
 }
 
 // Compression positive: {isotropic: 100 kPa} or {xx: ..., yy: ..., ...}, zero where nothing is said.
-void read_initial(const Fields& root, ElementTest& test) {
-    const Fields initial = root.section("initial", {"stress", "states"});
+std::array<double, 6> read_stress(const Fields& initial) {
     std::vector<std::string> keys = component_names;
     keys.emplace_back("isotropic");
     const Fields fields = initial.section("stress", keys);
+    std::array<double, 6> tensor;
     for (std::size_t k = 0; k < 6; ++k)
-        test.stress[k] = -fields.quantity(component_names[k], "Pa", {}, 0.0);
-    if (const Node* isotropic = fields.find("isotropic")) {
-        for (const char* name : {"xx", "yy", "zz"})
-            if (fields.find(name))
-                throw InputError(isotropic->where(),
-                                 fields.path("isotropic") + " contradicts " + fields.path(name));
-        for (std::size_t k = 0; k < 3; ++k)
-            test.stress[k] = pressure(fields, "isotropic");
+        tensor[k] = -fields.quantity(component_names[k], "Pa", {}, 0.0);
+    const Node* isotropic = fields.find("isotropic");
+    for (std::size_t k = 0; k < 3 && isotropic; ++k) {
+        if (fields.find(component_names[k]))
+            throw InputError(isotropic->where(),
+                             fields.path("isotropic") + " contradicts " + fields.path(component_names[k]));
+        tensor[k] = pressure(fields, "isotropic");
     }
-    test.states = read_named_numbers(initial, "states");
+    return tensor;
+}
+
+void read_test(const Fields& root, ElementTest& test) {
+    if (test.material.water)
+        throw InputError(root.require("material").find("pore_water")->where(),
+                         "material.pore_water has no place here: the stages of a test say `drainage: "
+                         "undrained`, and their stress is effective");
+    const Fields initial = root.section("initial", {"stress", "states"});
+    test.stress = read_stress(initial);
+    test.states = read_states(initial, test.material, true);
+    test.characteristic_length =
+        root.quantity("characteristic_length", "m", positive, test.characteristic_length);
+    StageReader(test.stages).read_list(root.require("test"), "test", "", 0);
+}
+
+void read_call(const Fields& root, ElementTest& test) {
+    for (const char* key : {"initial", "characteristic_length"})
+        if (const Node* node = root.find(key))
+            throw InputError(node->where(),
+                             std::string(key) + " has no place beside replay, which has its own");
+    test.replay = read_replay(root.require("replay"), test.material);
+    test.material.water.reset(); // the call has the effective stress
 }
 
 } // namespace
@@ -322,22 +375,20 @@ void read_initial(const Fields& root, ElementTest& test) {
 ElementTest read_element_text(std::string text, const std::filesystem::path& file,
                               const std::vector<Override>& overrides, const Registry& registry) {
     const Node document = parse_with_overrides(std::move(text), file, overrides);
-    const Fields root(document, "", {"gault", "title", "plugins", "material", "initial", "test", "replay"});
+    if (const Node* geometry = document.find("geometry"))
+        throw InputError(geometry->where(),
+                         "a test of one point has no geometry; a scene is for `gault run`");
+    const Fields root(
+        document, "",
+        {"gault", "title", "plugins", "material", "characteristic_length", "initial", "test", "replay"});
     check_version(root);
     ElementTest test;
     test.file = file;
     test.title = root.find("title") ? read_text_value(*root.find("title"), "title") : file.stem().string();
     const Node& material = root.require("material", "the soil: {model: NAME, ...}");
-    test.material = read_material(material, "material", "material", registry, 2000.0);
-    if (exactly_one(root, {"test", "replay"}) == "test") {
-        read_initial(root, test);
-        StageReader(test.stages).read_list(root.require("test"), "test", "", 0);
-    } else {
-        if (const Node* initial = root.find("initial"))
-            throw InputError(initial->where(),
-                             "initial has no place beside replay, which has its own stress");
-        test.replay = read_replay(root.require("replay"));
-    }
+    test.material = read_material(material, "", "material", registry, 2000.0);
+    test.material.name = test.material.model.component->declaration->name;
+    (exactly_one(root, {"test", "replay"}) == "test" ? read_test : read_call)(root, test);
     test.yaml = emit(document);
     return test;
 }

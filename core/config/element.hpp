@@ -39,7 +39,8 @@ struct ElementTest {
     std::filesystem::path file;
     MaterialUse material;
     std::array<double, 6> stress{};                    // initial, tension positive
-    std::map<std::string, std::vector<double>> states; // instead of what the soil starts with
+    std::map<std::string, std::vector<double>> states; // instead of what the soil starts with; SI
+    double characteristic_length = 0.01;               // m, of a cell, for soils that ask for it
     std::vector<ElementStage> stages;                  // cycles written out
     std::optional<ElementReplay> replay;               // instead of stages
 };
@@ -47,7 +48,7 @@ struct ElementTest {
 // The file that asks the model again, for read_element_test.
 std::string replay_yaml(const std::string& title, const MaterialUse& material, const ElementReplay& call);
 
-constexpr int most_element_steps = 10'000'000; // in a test
+constexpr int most_element_steps = 10'000'000, most_element_stages = 100'000; // in a test
 
 // Throws InputError (file:line:column: what, what is allowed, the nearest right name).
 ElementTest read_element_test(const std::filesystem::path& file, const std::vector<Override>& overrides,

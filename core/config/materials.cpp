@@ -11,10 +11,10 @@ constexpr std::size_t most_regions = 1000;
 const std::vector<std::string> host_keys = {"model", "density", "pore_water"};
 
 PoreWater read_water(const Node& node, const std::string& path) {
-    const Fields fields(node, path, {"bulk_modulus", "porosity", "pressure"});
+    const Fields fields(node, path, {"bulk_modulus", "porosity", "initial_pressure"});
     const double bulk = fields.quantity("bulk_modulus", "Pa", positive, 2.2e9);
     const double porosity = fields.quantity("porosity", "1", {.min = 0.0, .max = 1.0, .min_open = true}, 0.4);
-    return {bulk / porosity, fields.quantity("pressure", "Pa", not_negative, 0.0)};
+    return {bulk / porosity, fields.quantity("initial_pressure", "Pa", not_negative, 0.0)};
 }
 
 std::vector<std::string> names_of(const std::vector<MaterialUse>& materials, std::size_t count) {

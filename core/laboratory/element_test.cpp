@@ -1,7 +1,7 @@
 #include "core/laboratory/element_test.hpp"
-#include "core/base/suggest.hpp"
 #include "core/laboratory/mixed_control.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,6 +21,13 @@ double deviator_norm_squared(const Tensor& t) { // e:e
     for (std::size_t k = 0; k < 3; ++k)
         sum += std::pow(t[k] - trace(t) / 3.0, 2) + 2.0 * t[k + 3] * t[k + 3];
     return sum;
+}
+
+double largest_shear_stress(const Tensor& t) {
+    Eigen::Matrix3d m;
+    m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
+    const Eigen::Vector3d principal = m.selfadjointView<Eigen::Lower>().eigenvalues();
+    return 0.5 * (principal[2] - principal[0]);
 }
 
 std::vector<ColumnInfo> columns_of(const Material& material, bool undrained) {
@@ -58,7 +65,8 @@ bool any_undrained(const ElementTest& test) {
 } // namespace
 
 ElementRun::ElementRun(const ElementTest& test)
-    : test_(test), material_(test.material), point_(material_, test.stress, test.states),
+    : test_(test), material_(test.material),
+      point_(material_, test.stress, test.states, test.characteristic_length),
       columns_(columns_of(material_, any_undrained(test))), undrained_(any_undrained(test)) {}
 
 std::vector<double> ElementRun::values(int stage) const {
@@ -74,6 +82,9 @@ std::vector<double> ElementRun::values(int stage) const {
     if (undrained_) row.push_back(pore_pressure_);
     for (int k = 0; k < material_.state_components(); ++k)
         row.push_back(point_.state(k));
+    for (std::size_t k = 0; k < row.size(); ++k)
+        if (!std::isfinite(row[k]))
+            throw RunError(fmt::format("stage {}: column '{}' is {}", stage, columns_[k].header(), row[k]));
     return row;
 }
 
@@ -84,19 +95,29 @@ void ElementRun::go(const std::function<void(const std::vector<double>&)>& row) 
         MixedControl control(point_, stage);
         const double pressure = pore_pressure_;
         const Tensor begin = point_.stress();
-        for (int step = 1; step <= stage.steps; ++step) {
-            const Tensor before = point_.strain();
-            control.go_to(static_cast<double>(step) / stage.steps);
-            for (std::size_t k = 0; k < 6; ++k)
-                last_[k] = point_.strain()[k] - before[k];
+        const auto arrive = [&] {
             if (stage.undrained) { // total stress stays: what the skeleton sheds, the water takes
                 const auto k = static_cast<std::size_t>(*stage.undrained);
                 pore_pressure_ = pressure + point_.stress()[k] - begin[k];
+                undrained_strength_ =
+                    std::max(undrained_strength_.value_or(0.0), largest_shear_stress(point_.stress()));
             }
-            ++steps_;
             row(values(static_cast<int>(i) + 1));
+        };
+        const int64_t before = iterations_;
+        for (int step = 1; step <= stage.steps; ++step) {
+            const double time = point_.time();
+            try {
+                control.go_to(static_cast<double>(step) / stage.steps);
+            } catch (const RunError&) {
+                iterations_ = before + control.iterations();
+                if (point_.time() > time) arrive(); // as far as it went
+                throw;
+            }
+            iterations_ = before + control.iterations();
+            ++steps_;
+            arrive();
         }
-        iterations_ += control.iterations();
     }
 }
 
@@ -111,17 +132,11 @@ std::vector<ReplayAnswer> replay(const ElementTest& test) {
             e *= fraction;
         batch.set(batch.stress_old, 0, call.stress);
         batch.set(batch.strain, 0, part);
-        for (const auto& [name, values] : call.states)
-            for (const StateInfo& info : material.states())
-                if (name == info.declared.name)
-                    for (std::size_t k = 0; k < std::min<std::size_t>(values.size(), info.declared.shape);
-                         ++k)
-                        batch.state_old[static_cast<std::size_t>(info.first) + k][0] = values[k];
+        batch.set_states(0, call.states);
         for (std::size_t k = 0; k < batch.input.size(); ++k)
-            if (const auto given = call.inputs.find(material.api().inputs[k]);
-                given != call.inputs.end() && !given->second.empty())
+            if (const auto given = call.inputs.find(material.api().inputs[k]); given != call.inputs.end())
                 batch.input[k][0] = given->second[0];
-        for (std::size_t k = 0; k < 9 && material.finite_strain() && call.F_old && call.F_new; ++k) {
+        for (std::size_t k = 0; k < 9 && call.F_old; ++k) { // straight on, as a run divides a step
             batch.F_old[k][0] = (*call.F_old)[k];
             batch.F_new[k][0] = (*call.F_old)[k] + fraction * ((*call.F_new)[k] - (*call.F_old)[k]);
         }
@@ -135,32 +150,21 @@ std::vector<ReplayAnswer> replay(const ElementTest& test) {
     return answers;
 }
 
-double seconds_per_update(const SoilPoint& point, const Tensor& increment, std::size_t count) {
+std::optional<double> seconds_per_update(const SoilPoint& point, std::size_t count) {
     PointBatch batch(point.material(), count);
     for (std::size_t i = 0; i < count; ++i) {
-        batch.set(batch.stress_old, i, point.stress());
-        batch.set(batch.strain, i, increment);
-        for (std::size_t k = 0; k < batch.state_old.size(); ++k)
-            batch.state_old[k][i] = point.state(static_cast<int>(k));
-    }
-    if (point.material().finite_strain()) {
-        Tensor after = point.strain();
-        for (std::size_t k = 0; k < 6; ++k)
-            after[k] += increment[k];
-        const Matrix from = deformation_gradient(point.strain()), to = deformation_gradient(after);
-        for (std::size_t k = 0; k < 9; ++k) {
-            batch.F_old[k].assign(batch.F_old[k].size(), from[k]);
-            batch.F_new[k].assign(batch.F_new[k].size(), to[k]);
-        }
+        batch.take(i, point.batch(), 0);
+        batch.set_strain(i, point.batch().get(point.batch().strain, 0));
     }
     batch.pad();
+    batch.time = point.time();
     using Clock = std::chrono::steady_clock;
     double best = HUGE_VAL;
     int calls = 1;
     for (int turn = 0; turn < 12; ++turn) {
         const auto start = Clock::now();
         for (int call = 0; call < calls; ++call)
-            batch.update(1e-3);
+            if (batch.update(point.last_dt()).status != GAULT_OK) return std::nullopt;
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         best = std::min(best, seconds / calls / static_cast<double>(count));
         if (seconds < 4e-3) calls *= 2;

@@ -5,6 +5,7 @@
 #include "core/output/results.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,20 +13,22 @@ namespace gault::core {
 
 class ElementRun {
   public:
-    explicit ElementRun(const ElementTest& test); // InputError, RunError: the soil refuses
+    explicit ElementRun(const ElementTest& test); // RunError: the soil refuses
 
     // Compression positive, as a person reads; shear strains are the tensor's.
     const std::vector<ColumnInfo>& columns() const { return columns_; }
-    // Calls `row` once for the start and after every step. RunError: at a stage, with the reason; rows given stay.
+    // Calls `row` once for the start and after every step. RunError: at a stage, with the reason; the last row is then
+    // as far as the point came.
     void go(const std::function<void(const std::vector<double>&)>& row);
 
     const SoilPoint& point() const { return point_; }
-    const Tensor& last_increment() const { return last_; } // of strain, of the last step
+    // Half the largest difference of two principal stresses in undrained stages, s_u where they go to failure; Pa.
+    const std::optional<double>& undrained_strength() const { return undrained_strength_; }
     int64_t steps() const { return steps_; }
     int64_t iterations() const { return iterations_; }
 
   private:
-    std::vector<double> values(int stage) const;
+    std::vector<double> values(int stage) const; // RunError: one is not finite
 
     const ElementTest& test_;
     Material material_;
@@ -33,7 +36,7 @@ class ElementRun {
     std::vector<ColumnInfo> columns_;
     double pore_pressure_ = 0.0; // Pa, compression positive
     bool undrained_ = false;     // some stage is
-    Tensor last_{};
+    std::optional<double> undrained_strength_;
     int64_t steps_ = 0, iterations_ = 0;
 };
 
@@ -46,8 +49,8 @@ struct ReplayAnswer {
 };
 std::vector<ReplayAnswer> replay(const ElementTest& test);
 
-// Wall time of one point's constitutive update in batches of `batch` points where `point` stands, the best of
-// several turns; s.
-double seconds_per_update(const SoilPoint& point, const Tensor& increment, std::size_t batch);
+// Wall time of one point's constitutive update, the best of several turns: `batch` points that stand where `point` does,
+// strained once more as it was last; s. Nothing: the soil does not take that step.
+std::optional<double> seconds_per_update(const SoilPoint& point, std::size_t batch);
 
 } // namespace gault::core

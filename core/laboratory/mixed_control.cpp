@@ -12,7 +12,25 @@ namespace {
 constexpr int most_iterations = 30, most_halvings = 8;
 constexpr double least_share = 1e-9; // of a stage
 constexpr double precision = 1e-9;   // of the increment; what a difference tangent can still reach
-constexpr double rounding = 1e-15;   // of strain: stresses over their stiffness are not known better
+constexpr double rounding = 1e-15;   // of strains, and of stresses over their stiffness
+constexpr double longest = 1.0;      // increment: what is longer runs away
+
+double largest(const Tensor& t) {
+    double most = 0.0;
+    for (const double x : t)
+        most = std::max(most, std::abs(x));
+    return most;
+}
+double norm(const Tensor& t) {
+    double sum = 0.0;
+    for (const double x : t)
+        sum += x * x;
+    return std::sqrt(sum);
+}
+
+bool is_of_stress(const Constraint& c) {
+    return largest(c.stress) > 0.0;
+}
 
 } // namespace
 
@@ -35,13 +53,13 @@ double MixedControl::value(const Constraint& c, const Tensor& strain, const Tens
     return sum;
 }
 
-namespace {
-
-bool is_of_stress(const Constraint& c) {
-    return std::any_of(c.stress.begin(), c.stress.end(), [](double x) { return x != 0.0; });
+bool MixedControl::prescribes_stress() const {
+    for (std::size_t k = 0; k < 6; ++k) {
+        const Constraint& c = stage_.constraints[k];
+        if (is_of_stress(c) && c.end && *c.end != start_[k]) return true;
+    }
+    return false;
 }
-
-} // namespace
 
 MixedControl::Vector6 MixedControl::misfit(double share, const Tensor& increment,
                                            const Tensor& stress) const {
@@ -69,50 +87,62 @@ Matrix6 MixedControl::jacobian(const Matrix6& tangent) const {
     return j;
 }
 
+// False, and the reason: the soil has no answer.
+bool MixedControl::ask(double share, double dt, const Tensor& increment, Trial& trial) {
+    const std::string& name = point_.material().name();
+    if (norm(increment) > longest) {
+        reason_ = "the strain grows without bound";
+        return false;
+    }
+    trial.answer = point_.answer(increment, dt, true);
+    const UpdateFailure& failure = trial.answer.failure;
+    if (failure.status != GAULT_OK) {
+        reason_ = failure.status == GAULT_RETRY
+                      ? fmt::format("material '{}' asks for ever smaller steps", name)
+                      : fmt::format("material '{}': {}", name, failure.text);
+        return false;
+    }
+    trial.misfit = misfit(share, increment, trial.answer.stress);
+    if (!trial.misfit.allFinite() || !trial.answer.tangent.allFinite()) {
+        reason_ = fmt::format("material '{}' answered with a number that is not finite", name);
+        return false;
+    }
+    reason_.clear();
+    return true;
+}
+
+bool MixedControl::is_met(const Tensor& increment, const Trial& trial) const {
+    const double size = 1.0 + largest(point_.strain()) + largest(trial.answer.stress) / stiffness_;
+    return trial.misfit.norm() <= precision * norm(increment) + rounding * size;
+}
+
 // Newton's method; a correction that does not bring the constraints nearer is halved. At the limit of a soil the
-// increments are not unique: the least of them is taken.
+// increments are not unique: the least correction is taken.
 bool MixedControl::solve(double share, double dt, Tensor& increment) {
-    const auto answers = [&](const Tensor& e, SoilPoint::Answer& answer, Vector6& r) {
-        answer = point_.answer(e, dt, true);
-        if (answer.failure.status != GAULT_OK) {
-            reason_ = answer.failure.status == GAULT_RETRY ? "the soil asks for ever smaller steps"
-                                                           : answer.failure.text;
+    Trial trial;
+    if (!ask(share, dt, increment, trial)) return false;
+    for (int iteration = 0; !is_met(increment, trial); ++iteration) {
+        if (iteration == most_iterations) {
+            reason_ = fmt::format("{} iterations did not find the strain", most_iterations);
             return false;
         }
-        r = misfit(share, e, answer.stress);
-        if (!r.allFinite() || !answer.tangent.allFinite()) {
-            reason_ = "the soil answered with a stress that is not finite";
-            return false;
-        }
-        return true;
-    };
-    SoilPoint::Answer answer;
-    Vector6 r;
-    if (!answers(increment, answer, r)) return false;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
         ++iterations_;
-        const double length = Eigen::Map<const Vector6>(increment.data()).norm();
-        double size = 0.0;
-        for (const double s : answer.stress)
-            size = std::max(size, std::abs(s));
-        if (r.norm() <= precision * length + rounding * (1.0 + size / stiffness_)) return true;
-        Vector6 correction =
-            Eigen::CompleteOrthogonalDecomposition<Matrix6>(jacobian(answer.tangent)).solve(r);
+        Vector6 correction = Eigen::CompleteOrthogonalDecomposition<Matrix6>(jacobian(trial.answer.tangent))
+                                 .solve(trial.misfit);
         const Tensor before = increment;
-        const double norm = r.norm();
+        const double far = trial.misfit.norm();
         bool nearer = false;
         for (int halving = 0; halving < most_halvings && !nearer; ++halving, correction *= 0.5) {
             for (std::size_t k = 0; k < 6; ++k)
                 increment[k] = before[k] + correction[static_cast<Eigen::Index>(k)];
-            nearer = answers(increment, answer, r) && r.norm() < norm;
+            nearer = ask(share, dt, increment, trial) && trial.misfit.norm() < far;
         }
         if (!nearer) {
-            if (reason_.empty()) reason_ = "no strain brings the stress nearer to what is prescribed";
+            if (reason_.empty()) reason_ = "no strain gives the stress that is prescribed";
             return false;
         }
     }
-    reason_ = fmt::format("{} iterations were not enough", most_iterations);
-    return false;
+    return true;
 }
 
 void MixedControl::go_to(double share) {
@@ -121,10 +151,8 @@ void MixedControl::go_to(double share) {
         step = std::min(step, share - share_);
         const double next = step == share - share_ ? share : share_ + step;
         Tensor increment{};
-        if (last_ > 0.0)
-            for (std::size_t k = 0; k < 6; ++k)
-                increment[k] = increment_[k] * (step / last_);
-        reason_.clear();
+        for (std::size_t k = 0; k < 6 && last_ > 0.0; ++k)
+            increment[k] = increment_[k] * (step / last_);
         bool made = solve(next, step * stage_.duration, increment);
         if (!made && last_ > 0.0) made = solve(next, step * stage_.duration, increment = {}); // from rest
         if (made) {
@@ -137,10 +165,10 @@ void MixedControl::go_to(double share) {
         }
         step *= 0.5;
         if (step < least_share)
-            throw RunError(fmt::format("stage {} ({}), {:.4g} % of it done: no strain meets what is "
-                                       "prescribed: {}; a soil at its limit "
-                                       "cannot bear more stress: prescribe a strain instead",
-                                       stage_.label, stage_.kind, 100.0 * share_, reason_));
+            throw RunError(fmt::format(
+                "stage {} ({}), {:.4g} % done: {}{}", stage_.label, stage_.kind, 100.0 * share_, reason_,
+                prescribes_stress() ? "; a soil at its limit bears no more stress: prescribe a strain instead"
+                                    : ""));
     }
 }
 

@@ -13,16 +13,23 @@ class MixedControl {
     MixedControl(SoilPoint& point, const ElementStage& stage);
 
     // On to this share of the stage, 0 to 1, in one step or, where no step of that length can be made, in several.
-    // RunError with the reason: no strain meets the constraints.
+    // RunError with the reason: no strain meets the constraints; the point is then as near to it as it came.
     void go_to(double share);
-    int64_t iterations() const { return iterations_; }
+    int64_t iterations() const { return iterations_; } // corrections of an increment
 
   private:
     using Vector6 = Eigen::Matrix<double, 6, 1>;
+    struct Trial {
+        SoilPoint::Answer answer;
+        Vector6 misfit; // of the constraints, as strains
+    };
 
     double value(const Constraint& c, const Tensor& strain, const Tensor& stress) const;
+    bool prescribes_stress() const; // one that changes
     Vector6 misfit(double share, const Tensor& increment, const Tensor& stress) const;
     Matrix6 jacobian(const Matrix6& tangent) const;
+    bool ask(double share, double dt, const Tensor& increment, Trial& trial);
+    bool is_met(const Tensor& increment, const Trial& trial) const;
     bool solve(double share, double dt, Tensor& increment);
 
     SoilPoint& point_;

@@ -55,6 +55,13 @@ void PointBatch::set_strain(std::size_t point, const Tensor& increment) {
         }
 }
 
+void PointBatch::set_states(std::size_t point, const std::map<std::string, std::vector<double>>& states) {
+    for (const StateInfo& info : material_.states())
+        if (const auto given = states.find(info.declared.name); given != states.end())
+            for (std::size_t k = 0; k < given->second.size(); ++k)
+                state_old[static_cast<std::size_t>(info.first) + k][point] = given->second[k];
+}
+
 void PointBatch::take(std::size_t point, const PointBatch& from, std::size_t its_point) {
     const auto copy = [&](auto& to, const auto& source) {
         for (std::size_t k = 0; k < to.size(); ++k)

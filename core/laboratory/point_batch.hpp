@@ -3,6 +3,7 @@
 #include "core/solver/material.hpp"
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class PointBatch {
     void set(std::array<Column, 6>& columns, std::size_t point, const Tensor& value);
     // The increment of strain, and with it F_new = exp(increment) F_old.
     void set_strain(std::size_t point, const Tensor& increment);
+    // The old ones that are named; every one has as many values as its shape.
+    void set_states(std::size_t point, const std::map<std::string, std::vector<double>>& states);
     // The old values, the increment and the inputs of a point of a batch of the same material.
     void take(std::size_t point, const PointBatch& from, std::size_t its_point);
     // The last point once more in every lane beyond `count`, as the contract promises.

@@ -1,5 +1,4 @@
 #include "core/laboratory/soil_point.hpp"
-#include "core/base/suggest.hpp"
 
 #include <fmt/format.h>
 
@@ -17,42 +16,21 @@ Tensor plus(Tensor a, const Tensor& b, double factor = 1.0) {
     return a;
 }
 
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix c{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t k = 0; k < 3; ++k)
-                c[3 * i + j] += a[3 * i + k] * b[3 * k + j];
-    return c;
-}
-
 } // namespace
 
 SoilPoint::SoilPoint(const Material& material, const Tensor& stress,
-                     const std::map<std::string, std::vector<double>>& states)
+                     const std::map<std::string, std::vector<double>>& states, double characteristic_length)
     : batch_(material, 7) {
+    for (std::size_t k = 0; k < batch_.input.size(); ++k)
+        if (material.inputs()[k] == HostField::characteristic_length)
+            batch_.input[k].assign(8, characteristic_length);
     for (std::size_t lane = 0; lane < 7; ++lane)
         batch_.set(batch_.stress_old, lane, stress);
     batch_.pad();
     if (const UpdateFailure failure = batch_.start(); failure.status != GAULT_OK)
         throw RunError(fmt::format("material '{}': {}", material.name(), failure.text));
-    for (const auto& [name, values] : states) {
-        std::vector<std::string> names;
-        bool found = false;
-        for (const StateInfo& info : material.states()) {
-            names.emplace_back(info.declared.name);
-            if (name != info.declared.name) continue;
-            found = true;
-            if (values.size() != info.declared.shape)
-                throw InputError(fmt::format("initial.states.{} has {} values; the state has {}", name,
-                                             values.size(), static_cast<int>(info.declared.shape)));
-            for (std::size_t k = 0; k < values.size(); ++k)
-                batch_.state_old[static_cast<std::size_t>(info.first) + k].assign(8, values[k]);
-        }
-        if (!found)
-            throw InputError(fmt::format("initial.states.{}: '{}' has no such state{}", name, material.name(),
-                                         suggestion(name, names)));
-    }
+    for (std::size_t lane = 0; lane < 8; ++lane)
+        batch_.set_states(lane, states);
 }
 
 Tensor SoilPoint::shifted(const Tensor& increment, std::size_t lane) const {
@@ -64,16 +42,13 @@ Tensor SoilPoint::shifted(const Tensor& increment, std::size_t lane) const {
 void SoilPoint::lay_out(const Tensor& increment, bool differences) {
     const Tensor after = plus(total_, increment);
     const double ratio = std::exp(after[0] + after[1] + after[2]);
-    Matrix from{}, to{};
-    if (material().finite_strain()) from = deformation_gradient(total_), to = deformation_gradient(after);
     for (std::size_t lane = 0; lane < 7; ++lane) {
-        const std::size_t moved = differences ? lane : 0;
-        batch_.set(batch_.strain, lane, shifted(increment, moved));
+        const Tensor e = shifted(increment, differences ? lane : 0);
+        batch_.set(batch_.strain, lane, e);
         if (!material().finite_strain()) continue;
-        Tensor e{};
-        const Matrix F = moved ? product(deformation_gradient(shifted(e, moved)), to) : to;
+        const Matrix from = deformation_gradient(total_), to = deformation_gradient(plus(total_, e));
         for (std::size_t k = 0; k < 9; ++k)
-            batch_.F_old[k][lane] = from[k], batch_.F_new[k][lane] = F[k];
+            batch_.F_old[k][lane] = from[k], batch_.F_new[k][lane] = to[k];
     }
     for (std::size_t k = 0; k < batch_.input.size(); ++k) {
         const HostField field = material().inputs()[k];

@@ -43,7 +43,8 @@ std::vector<Override> coarse_pilot(const Scene& scene, int factor) {
 }
 
 // The pilot's scene: nullopt where no coarse grid fits the scene's parts and regions.
-std::optional<Scene> pilot_scene(const Scene& scene, const Reread& reread) {
+std::optional<Scene> pilot_scene(const Scene& scene, const Reread& reread,
+                                 const std::vector<Override>& more) {
     const std::vector<Override> always{
         {"model.solver", "quasi_static"}, {"model.frame", "total"}, {"output", "{}"}, {"reference", "{}"}};
     std::vector<std::vector<Override>> tries;
@@ -52,6 +53,7 @@ std::optional<Scene> pilot_scene(const Scene& scene, const Reread& reread) {
         tries.push_back(coarse_pilot(scene, factor));
     for (std::vector<Override>& changes : tries) {
         changes.insert(changes.end(), always.begin(), always.end());
+        changes.insert(changes.end(), more.begin(), more.end());
         try {
             return reread(changes);
         } catch (const InputError&) { // a part between knots, a region without a cell
@@ -62,10 +64,10 @@ std::optional<Scene> pilot_scene(const Scene& scene, const Reread& reread) {
 
 } // namespace
 
-Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds) {
+Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds, const std::vector<Override>& more) {
     const auto start = std::chrono::steady_clock::now();
     Pilot pilot;
-    const std::optional<Scene> coarse = pilot_scene(scene, reread);
+    const std::optional<Scene> coarse = pilot_scene(scene, reread, more);
     if (!coarse) {
         pilot.trouble = "no coarser grid fits the parts and regions";
         return pilot;
@@ -88,6 +90,10 @@ Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds) {
         pilot.updates = solver.updates();
         pilot.iterations = solver.iterations();
         pilot.end = solver.time();
+        if (scene.program_surface) {
+            pilot.force = solver.measure("normal_force", *scene.program_surface).value();
+            pilot.displacement = solver.measure("displacement", *scene.program_surface).value();
+        }
         pilot.inelastic_radius = elasticity.largest_inelastic_radius(solver.motion());
     } catch (const InputError& error) {
         pilot.trouble = error.what();

@@ -11,10 +11,12 @@ struct Pilot {
     int64_t steps = 0, updates = 0, iterations = 0;
     double end = 0.0;              // of the program, s
     double inelastic_radius = 0.0; // the largest, reference, at which the soil is not elastic at the end, m
-    std::string trouble;           // why it did not come to its end; empty: it did
-    std::exception_ptr wrong;      // the scene is
+    double force = 0.0, displacement = 0.0; // of the program's surface at the end, N and m; 0: it has none
+    std::string trouble;                    // why it did not come to its end; empty: it did
+    std::exception_ptr wrong;               // the scene is
 };
 
-Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds);
+Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds,
+                const std::vector<Override>& more = {});
 
 } // namespace gault::core

@@ -18,7 +18,7 @@ namespace {
 constexpr double room = 1.25;           // radius of the domain over that of the soil that yields
 constexpr double least_radii = 10.0;    // of the domain, in radii of the cavity
 constexpr double incompressible = 0.45; // Poisson's ratio beyond which cells lock
-constexpr double sizing_seconds = 20.0;
+constexpr double sizing_seconds = 20.0, stepping_seconds = 1.0; // patience with a pilot
 
 uint32_t flags_of(const BoundaryUse& use) {
     return static_cast<const gault_boundary_api*>(use.model.component->declaration->api)->flags;
@@ -275,22 +275,10 @@ class Chooser {
                         100.0 * scene_.accuracy));
     }
 
-    // As each soil by itself integrates its stress.
     void strain_step() {
         if (!open("solver.strain_step") || solver_ != SolverKind::quasi_static) return;
-        StepLength least{SolverSettings().strain_step, 0.0};
-        const MaterialUse* soil = nullptr;
-        for (const MaterialUse& use : scene_.materials) {
-            const double stress =
-                (1.0 + 2.0 * scene_.initial_stress.k0) / 3.0 * vertical_at_middle(scene_, use);
-            const StepLength own = longest_step(
-                Material(use), stress - (use.water ? use.water->pressure : 0.0), scene_.accuracy);
-            if (own.strain_step < least.strain_step) least = own, soil = &use;
-        }
-        choose("solver.strain_step", fmt::format("{:.3g}", least.strain_step),
-               soil ? fmt::format("'{}' by itself then opens a cavity with an error of {:.2g} %", soil->name,
-                                  100.0 * least.error)
-                    : "longer steps make no difference to the soil");
+        const StepLength length = longest_step(scene_, reread_, stepping_seconds);
+        choose("solver.strain_step", fmt::format("{:.3g}", length.strain_step), length.reason);
     }
 
     const Scene& scene_;

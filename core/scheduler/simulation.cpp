@@ -28,9 +28,17 @@ Simulation::Simulation(const Scene& scene, int threads)
     check_states(scene, solver_->motion());
 }
 
+bool Simulation::records_water() const {
+    return scene_.program_surface &&
+           std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                       [](const MaterialUse& use) { return use.water.has_value(); });
+}
+
 std::vector<ColumnInfo> Simulation::make_columns() const {
     std::vector<ColumnInfo> all{{"time", "s", "Time"}};
     all.insert(all.end(), program_.columns().begin(), program_.columns().end());
+    if (records_water())
+        all.push_back({"excess_pore_pressure", "Pa", "In undrained soil beside the program's surface"});
     all.push_back({"step", "1", "Steps so far"});
     all.push_back({"kinetic_ratio", "1", "Kinetic energy over strain energy"});
     all.push_back({"energy_error", "1", "Imbalance of energy over its largest part"});
@@ -49,6 +57,8 @@ std::vector<double> Simulation::row() {
     const Energies energies = solver_->energies();
     std::vector<double> values{solver_->time()};
     values.insert(values.end(), program_.record().begin(), program_.record().end());
+    if (records_water())
+        values.push_back(solver_->measure("excess_pore_pressure", *scene_.program_surface).value());
     values.insert(values.end(), {static_cast<double>(solver_->steps()), energies.ratio(), energies.error(),
                                  solver_->largest_velocity()});
     return values;

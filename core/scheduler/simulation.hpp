@@ -43,6 +43,7 @@ class Simulation {
 
   private:
     std::vector<ColumnInfo> make_columns() const;
+    bool records_water() const;
     double step_length();
     double share_to_frame(double before) const;
     double measured(const std::string& name, double since) const;

@@ -212,19 +212,21 @@ void fill_inputs(const Material& material, gault_points& p, const BatchView& vie
     workspace.inputs.clear();
     for (std::size_t k = 0; k < material.inputs().size(); ++k) {
         double* column = workspace.column(Workspace::input + static_cast<int>(k));
-        for (std::size_t i = 0; i < n; ++i) {
-            switch (material.inputs()[k]) {
-            case HostField::density:
+        switch (material.inputs()[k]) {
+        case HostField::density:
+            for (std::size_t i = 0; i < n; ++i)
                 column[i] = material.density() / view.volume_ratio[i];
-                break;
-            case HostField::volume_ratio:
-                column[i] = view.volume_ratio[i];
-                break;
-            case HostField::characteristic_length:
-                column[i] =
-                    std::sqrt(grid.x.length[view.column[i / page_slots]] * grid.y.length[view.cell_row]);
-                break;
+            break;
+        case HostField::volume_ratio:
+            std::copy_n(view.volume_ratio, n, column);
+            break;
+        case HostField::characteristic_length:
+            for (std::size_t page = 0; page < n / page_slots; ++page) { // all of a page are in one cell
+                const double length = grid.x.length[view.column[page]];
+                std::fill_n(column + page * page_slots, page_slots,
+                            grid.radial ? length : std::sqrt(length * grid.y.length[view.cell_row]));
             }
+            break;
         }
         workspace.inputs.push_back(column);
     }

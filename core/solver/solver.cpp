@@ -64,15 +64,17 @@ double Solver::largest_velocity() const {
 
 const std::vector<std::string>& Solver::measure_names() {
     static const std::vector<std::string> names = {
-        "radius",       "initial_radius",  "area",           "initial_area",    "normal_force",
-        "displacement", "enclosed_volume", "kinetic_energy", "internal_energy", "external_work",
-        "damping_work", "energy_error",    "kinetic_ratio",  "largest_velocity"};
+        "radius",          "initial_radius",       "area",
+        "initial_area",    "normal_force",         "displacement",
+        "enclosed_volume", "excess_pore_pressure", "kinetic_energy",
+        "internal_energy", "external_work",        "damping_work",
+        "energy_error",    "kinetic_ratio",        "largest_velocity"};
     return names;
 }
 
 bool Solver::measures_surface(const std::string& name) {
     const auto& names = measure_names();
-    return std::find(names.begin(), names.end(), name) < names.begin() + 7;
+    return std::find(names.begin(), names.end(), name) < names.begin() + 8;
 }
 
 // The loads on the surface, and its share of what holds its nodes.
@@ -89,6 +91,28 @@ double Solver::normal_force(int index) {
     return -outward(surface.side()) * total;
 }
 
+// The mean over the points that began in the cells along it, by volume.
+double Solver::excess_pore_pressure(const Surface& surface) const {
+    const int across = normal_axis(surface.side()), along = 1 - across;
+    const auto& grid = model_.grid;
+    const int beside = surface.side() % 2 ? grid.axis(across).cells() - 1 : 0;
+    double volume = 0.0, total = 0.0;
+    for (int m = 0; m < static_cast<int>(model_.materials.size()); ++m) {
+        if (!model_.materials[m].water()) continue;
+        const Points& points = motion_->points()[m];
+        const Column& excess = points.columns().state.back();
+        points.each_point([&](std::size_t slot) {
+            const PointRecord at = motion_->record(m, slot);
+            if (grid.axis(across).cell_of(at.reference[across]) != beside ||
+                !surface.has_cell(grid.axis(along).cell_of(at.reference[along])))
+                return;
+            volume += at.volume;
+            total += at.volume * excess[slot];
+        });
+    }
+    return volume > 0.0 ? total / volume : 0.0;
+}
+
 std::optional<double> Solver::measure(const std::string& name, int index, Surface* gauge) {
     if (name == "kinetic_energy") return energies().kinetic;
     if (name == "internal_energy") return energies().internal;
@@ -102,6 +126,7 @@ std::optional<double> Solver::measure(const std::string& name, int index, Surfac
     if (name == "initial_radius") return place.initial_radius();
     if (name == "initial_area") return surface.initial_area();
     if (name == "normal_force") return normal_force(index);
+    if (name == "excess_pore_pressure") return excess_pore_pressure(surface);
     surface.refresh(*motion_);
     place.refresh(*motion_);
     if (name == "radius") return place.mean_radius();

@@ -71,6 +71,7 @@ class Solver {
 
   private:
     double normal_force(int surface);
+    double excess_pore_pressure(const Surface& surface) const; // Pa
 
     bool loaded_ = false;
 };

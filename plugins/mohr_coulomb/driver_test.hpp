@@ -22,9 +22,22 @@ using Principal = std::array<double, 3>;
 using Matrix = std::array<std::array<double, 3>, 3>;
 constexpr int row_of[] = {0, 1, 2, 0, 1, 2}, column_of[] = {0, 1, 2, 1, 2, 0};
 
+struct Ultimate { // Pa, deg, m
+    double c, phi, psi, strain;
+    double length = 0; // 0: not regularised
+};
+
 struct Parameters { // Pa, deg
     double E = 100e6, nu = 0.25, c = 1e3, phi = 48, psi = 16.5;
     std::optional<double> t{};
+    std::optional<Ultimate> ultimate{};
+    // The soil without softening whose strength is that after this plastic strain, in a cell of 1 m.
+    Parameters softened(double plastic_strain) const {
+        if (!ultimate) return *this;
+        const Ultimate& u = *ultimate;
+        const double share = std::min(plastic_strain / (u.strain * (u.length > 0 ? u.length : 1)), 1.0);
+        return {E, nu, c + share * (u.c - c), phi + share * (u.phi - phi), psi + share * (u.psi - psi), t};
+    }
     double kappa() const { return (1 - std::sin(phi * degree)) / (1 + std::sin(phi * degree)); }
     double y() const { return 2 * c * std::cos(phi * degree) / (1 + std::sin(phi * degree)); }
     double G() const { return E / (2 * (1 + nu)); }
@@ -130,13 +143,22 @@ inline plugin_test::Settings settings(const Parameters& p) {
                             {"friction_angle", p.phi * degree},
                             {"dilation_angle", p.psi * degree}};
     if (p.t) s["tension_strength"] = *p.t;
+    if (p.ultimate) {
+        s["ultimate_cohesion"] = p.ultimate->c;
+        s["ultimate_friction_angle"] = p.ultimate->phi * degree;
+        s["ultimate_dilation_angle"] = p.ultimate->psi * degree;
+        s["softening_strain"] = p.ultimate->strain;
+        if (p.ultimate->length > 0) s["regularisation_length"] = p.ultimate->length;
+    }
     return s;
 }
 
 class Model {
   public:
-    explicit Model(const Parameters& p, const std::string& variant = "")
-        : component_("mohr_coulomb", GAULT_MATERIAL, "mohr_coulomb", settings(p), variant) {}
+    explicit Model(const Parameters& p, const std::string& variant = "") : Model(settings(p), variant) {}
+    explicit Model(const plugin_test::Settings& s, const std::string& variant = "")
+        : component_("mohr_coulomb", GAULT_MATERIAL, "mohr_coulomb", s, variant) {}
+    const plugin_test::Component& component() const { return component_; }
 
     void update(Batch& b, bool tangent = false) const {
         const int64_t count = int64_t(b.strain.size());
@@ -182,7 +204,7 @@ class Model {
     plugin_test::Component component_;
 };
 
-// The soils that the random tests run through.
+// The soils that the random tests run through, perfectly plastic.
 inline std::vector<Parameters> soils() {
     return {{},                                  // Fahey's
             {70e6, 0.3, 1e3, 40, -2},            // Case III

@@ -11,9 +11,10 @@ std::vector<std::string> scenes() {
     std::vector<std::string> found;
     for (const char* top : {"configs", "plugins"})
         for (const auto& entry : fs::recursive_directory_iterator(repository / top))
-            if (entry.path().extension() == ".yaml" &&
-                entry.path().parent_path().stem() != "frontier") // studies
-                found.push_back(fs::relative(entry.path(), repository).string());
+            if (const std::string folder = entry.path().parent_path().stem();
+                entry.path().extension() == ".yaml" && folder != "frontier" && folder != "element")
+                found.push_back(
+                    fs::relative(entry.path(), repository).string()); // neither studies nor tests of a point
     std::sort(found.begin(), found.end());
     return found;
 }

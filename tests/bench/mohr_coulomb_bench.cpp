@@ -42,16 +42,17 @@ struct Arrays {
     }
 };
 
-enum Mix { elastic, cavity, edges, cut_off, oblique };
+enum Mix { elastic, cavity, edges, cut_off, oblique, softening };
 
-// Fahey's soil (E 100 MPa, nu 0.25, c 1 kPa, phi 48, psi 16.5 deg).
+// Fahey's soil (E 100 MPa, nu 0.25, c 1 kPa, phi 48, psi 16.5 deg); softening: the states of `cavity`.
 void update(benchmark::State& state, const gault_component& component, Mix mix, bool tangent) {
     const double degree = M_PI / 180.0;
-    std::array<gault_value, 6> values{};
-    const double given[] = {100e6, 0.25, 1e3, 48 * degree, 16.5 * degree, 500.0};
-    for (int i = 0; i < 6; ++i) {
+    std::array<gault_value, 11> values{};
+    const double given[] = {100e6, 0.25,        1e3, 48 * degree, 16.5 * degree, 500.0, // as declared
+                            0.5e3, 36 * degree, 0.0, 0.05,        0.01};
+    for (int i = 0; i < 11; ++i) {
         values[i].real = given[i];
-        values[i].count = i < 5 || mix == cut_off;
+        values[i].count = i < 5 || (i == 5 ? mix == cut_off : mix == softening);
     }
     void* self = nullptr;
     gault_error error{};
@@ -68,6 +69,8 @@ void update(benchmark::State& state, const gault_component& component, Mix mix, 
         batch.stress[c] = arrays.add(0.0);
     }
     double *const old_state = arrays.add(0.0), *const state_now = arrays.add(0.0);
+    const double* const cell = arrays.add(0.01);
+    batch.input = &cell;
     batch.state_old = &old_state;
     batch.state = &state_now;
     batch.modulus = arrays.add(0.0);
@@ -115,11 +118,9 @@ int main(int count, char** arguments) {
                                  __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")},
                                 {"v3", "glibc-hwcaps/x86-64-v3/", __builtin_cpu_supports("avx2") != 0},
                                 {"baseline", "", true}};
-    const std::pair<const char*, Mix> mixes[] = {{"elastic", elastic},
-                                                 {"cavity", cavity},
-                                                 {"edges", edges},
-                                                 {"cut_off", cut_off},
-                                                 {"oblique", oblique}};
+    const std::pair<const char*, Mix> mixes[] = {{"elastic", elastic}, {"cavity", cavity},
+                                                 {"edges", edges},     {"cut_off", cut_off},
+                                                 {"oblique", oblique}, {"softening", softening}};
     for (const Variant& v : variants) {
         if (!v.runs) continue;
         const gault_component& component = load(v.folder);
