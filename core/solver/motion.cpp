@@ -47,7 +47,7 @@ GridView view_of(const Grid& grid) {
         return AxisView{a.origin().data(), a.length().data(), a.inverse_length().data(), a.left().data(),
                         a.right().data()};
     };
-    return {axis(grid.axis(0)), axis(grid.axis(1)), grid.layout().row};
+    return {axis(grid.axis(0)), axis(grid.axis(1)), grid.layout().row, grid.radial()};
 }
 
 BatchView Motion::view(const Task& task) {

@@ -21,6 +21,7 @@ struct AxisView { // per-cell arrays of an Axis
 struct GridView {
     AxisView x, y;
     std::ptrdiff_t row; // distance between rows of a nodal field
+    bool radial;        // cells along y stand for a metre of what does not vary
 };
 
 struct BatchView {

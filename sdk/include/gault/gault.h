@@ -233,7 +233,8 @@ enum {
 };
 
 /* Host fields that `inputs` may name (scalars): "density" kg/m^3, current; "volume_ratio" 1, current over initial;
- * "characteristic_length" m, of the grid cell that holds the point, for regularised softening. */
+ * "characteristic_length" m, of the grid cell that holds the point (the root of its area; in radial symmetry its length along
+ * the radius), for regularised softening. */
 typedef struct gault_material_api { /* [grows] */
     uint32_t size;
     uint32_t flags;
@@ -352,11 +353,11 @@ typedef struct gault_report { /* [grows] */
     uint32_t size;
     uint32_t reserved;
     void *host; /* the first argument of both functions */
-    void (*result)(void *host, const char *name, const char *unit, double value,
-                   const char *source,                        /* how it follows: a citation; may be "" */
-                   const char *note) GAULT_NOEXCEPT;          /* what to know before using it; may be "" */
-    void (*absent)(void *host, const char *name, const char *reason, /* why this history has no such result */
-                   const char *source) GAULT_NOEXCEPT;
+    /* `source`: how it follows, a citation; `note`: what to know before using it. Both may be "". */
+    void (*result)(void *host, const char *name, const char *unit, double value, const char *source,
+                   const char *note) GAULT_NOEXCEPT;
+    /* `reason`: why this history has no such result. */
+    void (*absent)(void *host, const char *name, const char *reason, const char *source) GAULT_NOEXCEPT;
 } gault_report;
 
 typedef struct gault_program_api { /* [grows] */

@@ -173,6 +173,29 @@ TEST_P(EveryFrame, TellsTheSizeOfEveryPointsCell) {
     EXPECT_EQ(size, size_at_rest);
 }
 
+// The height of a radial cell is a convention.
+TEST_P(EveryFrame, TellsTheSizeOfARadialCellAlongTheRadius) {
+    std::vector<double> size;
+    soil.inputs = {"characteristic_length"};
+    soil.start = [&](gault_points& p, gault_error&) {
+        size.insert(size.end(), p.input[0], p.input[0] + p.count);
+        return gault_status(GAULT_OK);
+    };
+    Shape ring = shape();
+    ring.symmetry = Symmetry::radial;
+    ring.lower = {1.0, 0.0};
+    ring.upper = {2.0, 1.0};
+    ring.axes = {{{3, 2.0}, {1, 1.0}}}; // cells of 1/7, 2/7 and 4/7 m
+    ring.per_cell = 2;
+    SmallScene radial(ring);
+    radial.add(soil, 1600.0);
+    Body body(radial.scene);
+    std::set<double> lengths;
+    for (const double length : size)
+        lengths.insert(std::round(7e12 * length));
+    EXPECT_EQ(lengths, (std::set<double>{1e12, 2e12, 4e12}));
+}
+
 // F is dragged along by the motion, also in three pieces; the stress is not rotated for such a material.
 TEST_P(EveryFrame, GivesTheDeformationGradientToFiniteStrainMaterials) {
     std::array<double, 9> before{}, after{};

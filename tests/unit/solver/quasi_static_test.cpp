@@ -138,6 +138,67 @@ TEST(Equilibrium, TurnsTheStressWithABodyThatTurns) {
     expect_turned_stress(Frame::updated, Basis::linear);
 }
 
+// Stress at the end of a path F(t) = R(turn t) G(t), t from 0 to 1 in equal steps; the axes of G turn as well.
+std::array<double, 4> stress_after(double turn, int steps, Basis basis) {
+    TestMaterial soil(lame, shear);
+    SmallScene s{shape({Symmetry::plane_strain, Frame::total, basis, ""})};
+    s.add(soil, density);
+    Body body(s.scene);
+    prestress(body);
+    Equilibrium equilibrium(body.model, *body.motion);
+    Stiffness stiffness(body.model.grid);
+    VectorField internal(body.layout()), reached(body.layout());
+    for (int step = 1; step <= steps; ++step) {
+        const double t = static_cast<double>(step) / steps, c = std::cos(turn * t), n = std::sin(turn * t);
+        const double g[4] = {1.0 + 0.2 * t, 0.1 * t * t, 0.0, 1.0 - 0.1 * t};
+        const VectorField wanted = body.field([&](double x, double y) {
+            const double gx = g[0] * x + g[1] * y, gy = g[2] * x + g[3] * y;
+            return std::array<double, 2>{c * gx - n * gy - x, n * gx + c * gy - y};
+        });
+        VectorField du(wanted);
+        for (int k = 0; k < 2; ++k)
+            for (std::size_t i = 0; i < du.c[k].size(); ++i)
+                du.c[k][i] -= reached.c[k][i];
+        const auto start = body.motion->save();
+        EXPECT_TRUE(equilibrium.evaluate(*start, du, {1.0, 1.0}, 1.0, internal, stiffness).found);
+        body.motion->attempt(*start, du);
+        body.motion->arrive(du, 1.0);
+        reached = wanted;
+    }
+    std::array<double, 4> stress;
+    body.each_point([&](const PointColumns& columns, std::size_t slot, const PointRecord&) {
+        for (int k = 0; k < 4; ++k)
+            stress[k] = columns.stress[k][slot];
+    });
+    return stress;
+}
+
+// The logarithm of a step's own stretch, after its own rotation: nothing is left of a full turn, however long the steps.
+TEST(Equilibrium, ForgetsATurnThatCameWithAStretchExactly) {
+    for (const Basis basis : {Basis::linear, Basis::quadratic})
+        for (const int steps : {7, 60}) {
+            const auto turned = stress_after(2.0 * M_PI, steps, basis),
+                       straight = stress_after(0.0, steps, basis);
+            for (int k = 0; k < 4; ++k)
+                EXPECT_NEAR(turned[k], straight[k], 1e-10 * (lame + 2.0 * shear)) << k;
+        }
+}
+
+// The step error that is left is that of turning axes, of second order.
+TEST(Equilibrium, FollowsTurningAxesToSecondOrder) {
+    const auto error = [](int steps) {
+        const auto coarse = stress_after(0.0, steps, Basis::linear),
+                   exact = stress_after(0.0, 640, Basis::linear);
+        double largest = 0.0;
+        for (int k = 0; k < 4; ++k)
+            largest = std::max(largest, std::abs(coarse[k] - exact[k]));
+        return largest;
+    };
+    const double order = std::log2(error(10) / error(40)) / 2.0;
+    EXPECT_GT(order, 1.9);
+    EXPECT_LT(order, 2.2);
+}
+
 // Of all points, xx yy zz xy, after displacements {f0 x + f1 y, f2 x + f3 y^2} since the beginning, one a step.
 std::vector<double> stresses(TestMaterial& soil, const Shape& shape, VolumetricStrain volumetric_strain,
                              const std::vector<std::array<double, 4>>& steps) {

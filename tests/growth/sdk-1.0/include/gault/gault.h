@@ -233,7 +233,8 @@ enum {
 };
 
 /* Host fields that `inputs` may name (scalars): "density" kg/m^3, current; "volume_ratio" 1, current over initial;
- * "characteristic_length" m, of the grid cell that holds the point, for regularised softening. */
+ * "characteristic_length" m, of the grid cell that holds the point (the root of its area; in radial symmetry its length along
+ * the radius), for regularised softening. */
 typedef struct gault_material_api { /* [grows] */
     uint32_t size;
     uint32_t flags;
@@ -329,7 +330,8 @@ typedef struct gault_step { /* [grows] */
 
 /* Measures of the surface that the program or observer is `on`: "radius" m, mean current; "initial_radius" m; "area"
  * m^2, current; "initial_area" m^2; "normal_force" N, that pushes into the soil, total; "displacement" m, mean, into
- * the soil; "enclosed_volume" m^3, of the cavity inside an axisymmetric surface. Where the scene gives a program a
+ * the soil; "enclosed_volume" m^3, of the cavity inside an axisymmetric surface; "excess_pore_pressure" Pa, of
+ * undrained soil beside it. Where the scene gives a program a
  * gauge, a place on the surface, radii and displacement are those of the place. Of the whole model: "kinetic_energy",
  * "internal_energy", "external_work", "damping_work" J; "energy_error", "kinetic_ratio" 1; "largest_velocity" m/s. */
 typedef struct gault_program_signals { /* [grows] */
@@ -351,11 +353,11 @@ typedef struct gault_report { /* [grows] */
     uint32_t size;
     uint32_t reserved;
     void *host; /* the first argument of both functions */
-    void (*result)(void *host, const char *name, const char *unit, double value,
-                   const char *source,                        /* how it follows: a citation; may be "" */
-                   const char *note) GAULT_NOEXCEPT;          /* what to know before using it; may be "" */
-    void (*absent)(void *host, const char *name, const char *reason, /* why this history has no such result */
-                   const char *source) GAULT_NOEXCEPT;
+    /* `source`: how it follows, a citation; `note`: what to know before using it. Both may be "". */
+    void (*result)(void *host, const char *name, const char *unit, double value, const char *source,
+                   const char *note) GAULT_NOEXCEPT;
+    /* `reason`: why this history has no such result. */
+    void (*absent)(void *host, const char *name, const char *reason, const char *source) GAULT_NOEXCEPT;
 } gault_report;
 
 typedef struct gault_program_api { /* [grows] */
