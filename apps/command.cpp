@@ -50,10 +50,13 @@ LoadedElementTest::LoadedElementTest(const SceneArguments& arguments)
                                          arguments.plugin_path)),
       test_(core::read_element_test(arguments.file, overrides(arguments.set), registry_)) {}
 
+std::filesystem::path installation() {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+}
+
 void run_script(const std::string& script, std::vector<std::string> arguments,
                 const std::filesystem::path& folder) {
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-    const std::filesystem::path file = program.parent_path().parent_path() / "share/gault" / script,
+    const std::filesystem::path file = installation() / "share/gault" / script,
                                 said = folder / (script + ".log");
     arguments.insert(arguments.begin(), {"/usr/bin/python3", file.string()});
     if (core::run_child(arguments, said).status == 0)
