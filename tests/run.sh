@@ -12,7 +12,7 @@ usage() {
     exit 2
 }
 
-preset=release selection=(-LE long) packages=(abigail-tools clang gfortran libgmock-dev librapidcheck-dev libxml2-dev)
+preset=release selection=(-LE long) packages=(abigail-tools clang dpkg-dev file gfortran libgmock-dev librapidcheck-dev libxml2-dev)
 while (($#)); do
     case "$1" in
     --all) selection=() ;;
