@@ -27,14 +27,25 @@ bool is_file(const std::string& plugin) {
     return plugin.find('/') != std::string::npos || plugin.ends_with(".so");
 }
 
+// From the file that was named, what it is a link to, or a variant of either for this processor.
+bool comes_from(const core::Component& component, const fs::path& named) {
+    const fs::path folder = component.file.parent_path(), beside = folder.parent_path().parent_path();
+    for (const fs::path& file :
+         {fs::canonical(named), fs::canonical(fs::absolute(named).parent_path()) / named.filename()})
+        if (component.file.filename() == file.filename() &&
+            (folder == file.parent_path() || beside == file.parent_path()))
+            return true;
+    return false;
+}
+
 // A file of plugins, or the name of a model that is found as ever. A certificate is of one model.
 const core::Component& chosen(const core::Registry& registry, const Arguments& arguments) {
     std::vector<const core::Component*> models;
     std::vector<std::string> names;
-    const fs::path file = is_file(arguments.plugin) ? fs::path(arguments.plugin).filename() : fs::path();
-    const std::string wanted = is_file(arguments.plugin) ? arguments.model : arguments.plugin;
+    const bool file = is_file(arguments.plugin);
+    const std::string wanted = file ? arguments.model : arguments.plugin;
     for (const core::Component& c : registry.components()) {
-        if (c.declaration->kind != GAULT_MATERIAL || (!file.empty() && c.file.filename() != file)) continue;
+        if (c.declaration->kind != GAULT_MATERIAL || (file && !comes_from(c, arguments.plugin))) continue;
         names.emplace_back(c.declaration->name);
         if (wanted.empty() || wanted == c.declaration->name) models.push_back(&c);
     }
@@ -78,6 +89,11 @@ void check_names(const std::vector<std::string>& only) {
 
 int certify(const Arguments& arguments) {
     check_names(arguments.only);
+    if (is_file(arguments.plugin) && fs::is_directory(arguments.plugin))
+        throw core::InputError(
+            fmt::format("'{}' is a folder: name a plugin's file, or a model", arguments.plugin));
+    if (!is_file(arguments.plugin) && !arguments.model.empty())
+        throw core::InputError(fmt::format("--model chooses from a file; '{}' is a model", arguments.plugin));
     std::vector<fs::path> first;
     if (!arguments.with.empty()) first = core::scene_plugins(arguments.with, overrides(arguments.set));
     if (is_file(arguments.plugin)) first.insert(first.begin(), arguments.plugin);
@@ -85,11 +101,15 @@ int certify(const Arguments& arguments) {
     const core::Component& model = chosen(registry, arguments);
     const core::Sample soil = sample(arguments, model.declaration->name, registry);
     const std::optional<core::MaterialUse> elastic = yardstick(registry);
-    const core::Subject subject{registry, soil.material, soil.stress, shared_file("cavity.yaml"),
-                                elastic ? &*elastic : nullptr};
+    const core::Subject subject{registry,
+                                soil.material,
+                                soil.stress,
+                                shared_file("cavity.yaml"),
+                                elastic ? &*elastic : nullptr,
+                                arguments.time_limit};
     fmt::print("{} {}, {}\n", model.declaration->name, model.declaration->version, model.file.string());
     std::fflush(stdout); // before processes are made
-    const auto results = core::certify(subject, arguments.only, arguments.time_limit);
+    const auto results = core::certify(subject, arguments.only);
     fmt::print("{}", core::certificate_table(results));
     if (!arguments.json.empty())
         core::write_atomically(arguments.json, core::certificate_json(subject, results).dump(2) + "\n");

@@ -51,8 +51,12 @@ LoadedElementTest::LoadedElementTest(const SceneArguments& arguments)
                                          arguments.plugin_path)),
       test_(core::read_element_test(arguments.file, overrides(arguments.set), registry_)) {}
 
+std::filesystem::path installation() {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+}
+
 std::filesystem::path shared_file(const std::string& name) {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "share/gault" / name;
+    return installation() / "share/gault" / name;
 }
 
 void run_script(const std::string& script, std::vector<std::string> arguments,

@@ -32,6 +32,7 @@ Action declare_plan(CLI::App& options);
 Action declare_frontier(CLI::App& options);
 Action declare_element(CLI::App& options);
 Action declare_certify(CLI::App& options);
+Action declare_new(CLI::App& options);
 
 // KEY=VALUE of --set. InputError.
 std::vector<core::Override> overrides(const std::vector<std::string>& set);
@@ -80,8 +81,9 @@ class LoadedElementTest {
 // Leaves all that a plan may choose open.
 std::vector<core::Override> everything_open();
 
-// In share/gault, from the executable ../share/gault.
-std::filesystem::path shared_file(const std::string& name);
+// The folder of bin, lib and share that this program runs in: of an installation, or a build tree.
+std::filesystem::path installation();
+std::filesystem::path shared_file(const std::string& name); // in its share/gault
 
 // A script of share/gault with /usr/bin/python3. Where that fails: a warning, and what it said in FOLDER/SCRIPT.log.
 void run_script(const std::string& script, std::vector<std::string> arguments,

@@ -28,6 +28,7 @@ constexpr std::array commands{
     Command{"frontier", "Measures error against time over families of settings", declare_frontier},
     Command{"element", "Takes one material point of a soil through laboratory tests", declare_element},
     Command{"certify", "Runs a soil model through the contract and through physics", declare_certify},
+    Command{"new", "Writes a project for a component of your own", declare_new},
     Command{"list", "Lists every component with its version and file", declare_list},
     Command{"describe", "Prints a component's parameters, states or signals, and reference",
             declare_describe},

@@ -13,10 +13,10 @@ namespace gault::core {
 struct Subject {              // of a certificate
     const Registry& registry; // with what the cavity needs beside the soil
     const MaterialUse& use;
-    Tensor stress; // initial, Pa, tension positive
-    std::filesystem::path cavity =
-        {}; // a scene of a cavity, whose material `soil` the model takes the place of
+    Tensor stress;                     // initial, Pa, tension positive
+    std::filesystem::path cavity = {}; // a scene of one, whose material `soil` the model takes the place of
     const MaterialUse* yardstick = nullptr; // linear elasticity, for the cost of a point
+    double time_limit = 300.0;              // of a check, s
 };
 
 struct Finding {
@@ -40,8 +40,7 @@ struct CheckResult {
 };
 
 // Each check in a process of its own, so that one that crashes or never ends is a failed one. `only`: names; empty: all.
-std::vector<CheckResult> certify(const Subject& subject, const std::vector<std::string>& only,
-                                 double time_limit);
+std::vector<CheckResult> certify(const Subject& subject, const std::vector<std::string>& only);
 
 bool passed(const std::vector<CheckResult>& results);
 std::string certificate_table(const std::vector<CheckResult>& results);

@@ -11,7 +11,8 @@ Finding batches(const Subject& subject);
 Finding threads(const Subject& subject);
 Finding increments(const Subject& subject);
 Finding retry(const Subject& subject);
-// mechanics.cpp: what every soil obeys
+Finding rate(const Subject& subject);
+// mechanics.cpp, objectivity.cpp, waves.cpp: what every soil obeys
 Finding tangent(const Subject& subject);
 Finding step_size(const Subject& subject);
 Finding objectivity(const Subject& subject);

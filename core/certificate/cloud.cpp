@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gault::core {
@@ -16,15 +17,14 @@ bool step_one(PointBatch& batch, std::size_t point, double dt) {
         PointBatch one(batch.material(), 1);
         one.take(0, batch, point);
         one.time = batch.time;
-        Tensor part = whole;
-        for (double& e : part)
-            e /= pieces;
+        const Tensor part = scaled(whole, 1.0 / pieces);
         int made = 0;
         for (; made < pieces; ++made) {
             one.set_strain(0, part);
             one.pad();
             if (one.update(dt / pieces).status != GAULT_OK) break;
             one.accept();
+            one.time += dt / pieces;
         }
         if (made < pieces) continue;
         batch.set(batch.stress, point, one.get(one.stress, 0));
@@ -58,9 +58,19 @@ Tensor random_tensor(Random& random, double norm) {
             square += (k < 3 ? 1.0 : 2.0) * t[k] * t[k];
         }
     } while (square > 3.0 || square < 1e-3);
+    return scaled(t, norm / std::sqrt(square));
+}
+
+Tensor scaled(Tensor t, double factor) {
     for (double& x : t)
-        x *= norm / std::sqrt(square);
+        x *= factor;
     return t;
+}
+double largest(const Tensor& t) {
+    double most = 0.0;
+    for (const double x : t)
+        most = std::max(most, std::abs(x));
+    return most;
 }
 
 std::size_t step_each(PointBatch& batch, double dt) {
@@ -88,6 +98,60 @@ PointBatch scatter(const Material& material, const Tensor& stress, std::size_t c
         batch.time += 1.0;
     }
     return batch;
+}
+
+std::optional<PointBatch> answered_one(const PointBatch& cloud, std::size_t point, double low, double high,
+                                       Random& random, double dt) {
+    PointBatch one(cloud.material(), 1);
+    one.take(0, cloud, point);
+    one.time = cloud.time;
+    Tensor increment = random_tensor(random, log_uniform(random, low, high));
+    for (int halving = 0; halving < 20; ++halving, increment = scaled(increment, 0.5)) {
+        one.set_strain(0, increment);
+        one.pad();
+        if (one.update(dt).status == GAULT_OK) return one;
+    }
+    return std::nullopt;
+}
+
+namespace {
+
+// The call once more with one component of the strain shifted; a deformation gradient F_new becomes exp(e) F_new.
+std::optional<Tensor> shifted(const PointBatch& call, std::size_t column, double shift, double dt) {
+    PointBatch moved = call;
+    Tensor e{};
+    e[column] = shift;
+    Tensor increment = call.get(call.strain, 0);
+    increment[column] += shift;
+    moved.set_strain(0, increment);
+    const Matrix stretch = deformation_gradient(e);
+    for (std::size_t k = 0; k < 9 && call.material().finite_strain(); ++k) {
+        double sum = 0.0;
+        for (std::size_t j = 0; j < 3; ++j)
+            sum += stretch[3 * (k / 3) + j] * call.F_new[3 * j + k % 3][0];
+        moved.F_new[k][0] = sum;
+    }
+    moved.pad();
+    if (moved.update(dt).status != GAULT_OK) return std::nullopt;
+    return moved.get(moved.stress, 0);
+}
+
+} // namespace
+
+std::optional<Differences> differences(const PointBatch& call, double shift, double dt) {
+    Differences d{Matrix6::Zero(), 0.0};
+    for (std::size_t column = 0; column < 6; ++column) {
+        const std::optional<Tensor> above = shifted(call, column, shift, dt),
+                                    below = shifted(call, column, -shift, dt);
+        if (!above || !below) return std::nullopt;
+        for (std::size_t row = 0; row < 6; ++row) {
+            const double here = call.stress[row][0], up = ((*above)[row] - here) / shift,
+                         down = (here - (*below)[row]) / shift;
+            d.central(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = 0.5 * (up + down);
+            d.bend = std::max(d.bend, std::abs(up - down));
+        }
+    }
+    return d;
 }
 
 } // namespace gault::core

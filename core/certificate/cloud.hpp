@@ -1,7 +1,8 @@
 // Many material points in states that a soil reaches, and random increments to try on them. The same in every run.
 #pragma once
-#include "core/laboratory/point_batch.hpp"
+#include "core/laboratory/soil_point.hpp"
 
+#include <optional>
 #include <random>
 
 namespace gault::core {
@@ -11,6 +12,8 @@ using Random = std::mt19937_64;
 double uniform(Random& random, double low, double high);
 double log_uniform(Random& random, double low, double high);
 Tensor random_tensor(Random& random, double norm); // of a random direction; shear counts twice in the norm
+Tensor scaled(Tensor t, double factor);
+double largest(const Tensor& t); // component, by size
 
 // One step of every point of the batch, each divided into 64 parts at most where the model asks for less. A point that
 // finds no result stays where it is. Returns how many did; `stress` and `state` hold what is new. `strain` as set.
@@ -20,5 +23,18 @@ std::size_t step_each(PointBatch& batch, double dt);
 // RunError: the soil refuses the initial stress.
 PointBatch scatter(const Material& material, const Tensor& stress, std::size_t count, int steps,
                    double largest, Random& random);
+
+// One point of the cloud in a batch of its own, and the call that answers a random increment between these norms, halved
+// where the model asks for less. Nothing: it answers none.
+std::optional<PointBatch> answered_one(const PointBatch& cloud, std::size_t point, double low, double high,
+                                       Random& random, double dt = 1.0);
+
+// d stress / d strain of the call in hand, of one point, by differences of strains shifted to both sides; columns as in
+// gault.h. Nothing: a shifted strain is not answered.
+struct Differences {
+    Matrix6 central;
+    double bend; // the largest difference of an entry between the one side and the other
+};
+std::optional<Differences> differences(const PointBatch& call, double shift, double dt);
 
 } // namespace gault::core

@@ -6,8 +6,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <latch>
 #include <numeric>
 #include <thread>
 
@@ -27,241 +30,442 @@ bool is_sentence(const char* text) {
     return length > 3 && text[length - 1] == '.';
 }
 
-// What a point came to: stress, states, moduli.
+class Declarations {
+  public:
+    void look(const std::string& what, const char* unit, const char* doc) {
+        ++count;
+        if (unit && *unit && !is_unit(unit)) wrong.push_back(fmt::format("{}: no unit '{}'", what, unit));
+        if (!is_sentence(doc)) wrong.push_back(fmt::format("{}: '{}' is no sentence", what, doc));
+    }
+    void look(const gault_parameter* const* parameters, const std::string& owner) {
+        for (; *parameters; ++parameters) {
+            const gault_parameter& p = **parameters;
+            const std::string what = fmt::format("{}parameter '{}'", owner, p.name);
+            look(what, p.unit, p.doc);
+            if (p.type == GAULT_TABLE && !is_unit(p.x_unit))
+                wrong.push_back(fmt::format("{}: no unit '{}'", what, p.x_unit));
+            for (const gault_record_kind* const* kind = p.kinds; p.type == GAULT_RECORDS && *kind; ++kind)
+                look((*kind)->parameters, fmt::format("{}, {}, ", what, (*kind)->name));
+        }
+    }
+
+    int count = 0;
+    std::vector<std::string> wrong;
+};
+
+// What a point came to: stress, states, and moduli where the model was asked.
 std::vector<double> outcome(const PointBatch& batch, std::size_t point) {
     std::vector<double> row;
     for (const Column& c : batch.stress)
         row.push_back(c[point]);
     for (const Column& c : batch.state)
         row.push_back(c[point]);
-    row.push_back(batch.modulus[point]);
-    row.push_back(batch.shear_modulus[point]);
+    for (const Column* c : {&batch.modulus, &batch.shear_modulus})
+        if (!c->empty()) row.push_back((*c)[point]);
     return row;
 }
+// The first entries alone where one was not asked for moduli.
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-    return std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+    return std::memcmp(a.data(), b.data(), std::min(a.size(), b.size()) * sizeof(double)) == 0;
+}
+bool all_finite(const std::vector<double>& row) {
+    return std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); });
 }
 
-// Points with increments that the model answers in one call, and that call made.
+// Of the stress, relative; of a state where the stress is the same.
+std::string size_of_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double difference = 0.0, scale = 1e-300;
+    for (std::size_t k = 0; k < 6; ++k) {
+        difference = std::max(difference, std::abs(a[k] - b[k]));
+        scale = std::max({scale, std::abs(a[k]), std::abs(b[k])});
+    }
+    return difference > 0.0 ? fmt::format("by {:.1g} of the stress", difference / scale)
+                            : "in a state or a modulus";
+}
+
+// A batch of points, each with an increment that the model answers by itself, and the call of all of them made.
 PointBatch answered(const Material& material, const Tensor& stress, std::size_t count) {
     Random random(1);
-    PointBatch batch = scatter(material, stress, count, 12, 2e-3, random);
-    std::vector<Tensor> increment(count);
-    for (Tensor& e : increment)
-        e = random_tensor(random, log_uniform(random, 1e-7, 3e-3));
-    for (int halving = 0; halving < 40; ++halving) {
-        for (std::size_t i = 0; i < count; ++i)
-            batch.set_strain(i, increment[i]);
-        batch.pad();
-        const UpdateFailure failure = batch.update(1.0);
-        if (failure.status == GAULT_OK) return batch;
-        const auto halve = [](Tensor& e) {
-            for (double& x : e)
-                x *= 0.5;
-        };
-        if (failure.slot)
-            halve(increment[*failure.slot]);
-        else
-            std::for_each(increment.begin(), increment.end(), halve);
+    const PointBatch cloud = scatter(material, stress, count, 12, 2e-3, random);
+    PointBatch batch = cloud;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::optional<PointBatch> one = answered_one(cloud, i, 1e-7, 3e-3, random);
+        if (!one) throw RunError("a point answers no increment, however small");
+        batch.set_strain(i, one->get(one->strain, 0));
     }
-    throw RunError("the model answers no batch of increments, however small");
+    batch.pad();
+    if (const UpdateFailure failure = batch.update(1.0); failure.status != GAULT_OK)
+        throw RunError(fmt::format("points that are answered one by one are not as a batch: {}",
+                                   failure.text.empty() ? "RETRY" : failure.text));
+    return batch;
 }
 
 } // namespace
 
 Finding declaration(const Subject& subject) {
     const gault_component& c = *subject.use.model.component->declaration;
-    std::vector<std::string> wrong;
-    int count = 0;
-    const auto look = [&](const char* what, const char* name, const char* unit, const char* doc) {
-        ++count;
-        if (unit && *unit && !is_unit(unit))
-            wrong.push_back(fmt::format("{} '{}': no unit '{}'", what, name, unit));
-        if (!is_sentence(doc)) wrong.push_back(fmt::format("{} '{}': '{}' is no sentence", what, name, doc));
-    };
-    if (!is_sentence(c.doc)) wrong.push_back(fmt::format("the model's '{}' is no sentence", c.doc));
-    for (const gault_parameter* const* p = c.parameters; *p; ++p)
-        look("parameter", (*p)->name, (*p)->unit, (*p)->doc);
+    Declarations all;
+    if (!is_sentence(c.doc)) all.wrong.push_back(fmt::format("the model's '{}' is no sentence", c.doc));
+    all.look(c.parameters, "");
     const Material material(subject.use);
     for (const StateInfo& info : material.states())
-        look("state", info.declared.name, info.declared.unit, info.declared.doc);
-    return judge(wrong.empty(), wrong.empty() ? fmt::format("{} parameters and states", count)
-                                              : fmt::format("{}", fmt::join(wrong, "; ")));
+        all.look(fmt::format("state '{}'", info.declared.name), info.declared.unit, info.declared.doc);
+    return judge(all.wrong.empty(), all.wrong.empty() ? fmt::format("{} parameters and states", all.count)
+                                                      : fmt::format("{}", fmt::join(all.wrong, "; ")));
 }
+
+namespace {
+
+struct Trial { // of one parameter
+    gault_value value;
+    bool allowed; // itself: a bound that is open stands for its neighbour, which nobody writes
+};
+
+std::vector<Trial> trials_of(const gault_parameter& p, const gault_value& given) {
+    std::vector<Trial> trials;
+    const auto add = [&](double value, bool allowed, const char* text = "") {
+        gault_value v = given;
+        v.real = value;
+        v.text = text;
+        if (p.type != GAULT_REAL) v.integer = static_cast<int64_t>(std::clamp(value, -9e18, 9e18));
+        trials.push_back({v, allowed});
+    };
+    if (p.type == GAULT_BOOLEAN) add(0.0, true), add(1.0, true);
+    for (std::size_t k = 0; p.type == GAULT_CHOICE && p.choices[k]; ++k)
+        add(static_cast<double>(k), true, p.choices[k]);
+    if (p.type != GAULT_REAL && p.type != GAULT_INTEGER) return trials;
+    for (const auto& [bound, open, inside] :
+         {std::tuple{p.min, GAULT_MIN_OPEN, HUGE_VAL}, {p.max, GAULT_MAX_OPEN, -HUGE_VAL}}) {
+        if (!std::isfinite(bound)) continue;
+        const bool excluded = p.flags & static_cast<uint32_t>(open);
+        const double neighbour =
+            p.type == GAULT_INTEGER ? bound + std::copysign(1.0, inside) : std::nextafter(bound, inside);
+        add(excluded ? neighbour : bound, !excluded || p.type == GAULT_INTEGER);
+    }
+    return trials;
+}
+
+MaterialUse with_value(const MaterialUse& use, std::size_t parameter, const gault_value& value) {
+    Parameters parameters; // what its values point at stays the subject's
+    parameters.values = use.model.parameters.values;
+    parameters.values[parameter] = value;
+    parameters.locations = use.model.parameters.locations;
+    parameters.where = use.model.parameters.where;
+    return {use.name, {use.model.component, std::move(parameters)}, use.density, {}, use.yaml};
+}
+
+// Some first steps of a soil with an unusual parameter: it may refuse them. What is wrong; empty: nothing.
+std::string first_steps(const Material& material, const Tensor& stress) {
+    Random random(11);
+    PointBatch one(material, 1);
+    one.set(one.stress_old, 0, stress);
+    one.pad();
+    if (one.start().status != GAULT_OK) return "";
+    for (const double size : {0.0, 1e-6, 1e-4, 1e-3}) {
+        one.set_strain(0, random_tensor(random, size));
+        one.pad();
+        if (one.update(size > 0.0 ? 1.0 : 0.0).status == GAULT_OK && !all_finite(outcome(one, 0)))
+            return fmt::format("a strain of {:g} is answered, and not with numbers", size);
+    }
+    return "";
+}
+
+} // namespace
 
 Finding bounds(const Subject& subject) {
     const gault_component& c = *subject.use.model.component->declaration;
+    const Material material(subject.use);
+    PointBatch own = answered(material, subject.stress, 40);
+    const PointBatch before = own;
     int tried = 0, refused = 0;
     const std::vector<gault_value>& given = subject.use.model.parameters.values;
-    for (std::size_t i = 0; c.parameters[i]; ++i) {
+    for (std::size_t i = 0; i < given.size(); ++i) {
         const gault_parameter& p = *c.parameters[i];
-        if ((p.type != GAULT_REAL && p.type != GAULT_INTEGER) || given[i].count == 0) continue;
-        const auto at = [&](double bound, bool open, double side) {
-            if (!std::isfinite(bound)) return bound;
-            return open ? std::nextafter(bound, side) : bound;
-        };
-        for (const double value : {at(p.min, p.flags & GAULT_MIN_OPEN, HUGE_VAL),
-                                   at(p.max, p.flags & GAULT_MAX_OPEN, -HUGE_VAL)}) {
-            if (!std::isfinite(value)) continue;
-            std::vector<gault_value> values = given;
-            values[i].real = value;
-            if (p.type == GAULT_INTEGER)
-                values[i].integer = static_cast<int64_t>(std::clamp(value, -9e18, 9e18));
+        if (given[i].count == 0) continue;
+        for (const Trial& trial : trials_of(p, given[i])) {
+            const std::string what = fmt::format("'{}' = {:g}", p.name, trial.value.real);
+            const MaterialUse use = with_value(subject.use, i, trial.value);
             gault_error error{-1, 0, -1, ""};
             void* self = nullptr;
-            const gault_status status = c.create(&plugin_host(), values.data(), &self, &error);
+            const gault_status status =
+                c.create(&plugin_host(), use.model.parameters.values.data(), &self, &error);
             ++tried;
             if (status == GAULT_OK) {
-                if (c.destroy) c.destroy(self);
-            } else if (status == GAULT_INVALID && error.parameter >= 0 && error.text[0]) {
+                c.destroy(self);
+                const std::string wrong = first_steps(Material(use), subject.stress);
+                if (!wrong.empty() && trial.allowed) return failed(fmt::format("{}: {}", what, wrong));
+            } else if (status == GAULT_INVALID && error.parameter >= 0 &&
+                       static_cast<std::size_t>(error.parameter) < given.size() && error.text[0]) {
                 ++refused;
             } else {
-                return failed(
-                    fmt::format("'{}' = {:g}, within its bounds, is answered with status {} and names {}",
-                                p.name, value, status, error.parameter < 0 ? "no parameter" : "no reason"));
+                return failed(fmt::format(
+                    "{}, within its bounds, is answered with status {} and names {}", what, status,
+                    error.parameter < 0 || !error.text[0] ? "no parameter or no reason" : "its reason"));
             }
         }
     }
-    return passed(fmt::format("{} bounds tried, {} refused with a parameter and a reason", tried, refused));
+    own.update(1.0);
+    for (std::size_t k = 0; k < own.count(); ++k)
+        if (!same_bits(outcome(own, k), outcome(before, k)))
+            return failed("an instance with other values changes the results of this one");
+    return passed(fmt::format("{} values tried, {} refused with a parameter and a reason", tried, refused));
 }
 
 Finding batches(const Subject& subject) {
     constexpr std::size_t count = 331; // no multiple of a pack
     const Material material(subject.use);
     const PointBatch whole = answered(material, subject.stress, count);
-    const auto differs = [&](const std::vector<std::size_t>& points, const char* how, bool strange_padding) {
+    std::string wrong;
+    using Change = std::function<void(PointBatch&)>;
+    const auto expect_same = [&](const std::vector<std::size_t>& points, const char* how,
+                                 const Change& change = {}, bool tangent = false) {
+        if (!wrong.empty()) return;
         PointBatch part(material, points.size());
         for (std::size_t i = 0; i < points.size(); ++i)
             part.take(i, whole, points[i]);
         part.pad();
-        if (strange_padding) // other admissible values beyond `count`
-            for (std::size_t lane = part.count(); lane < part.strain[0].size(); ++lane)
-                part.take(lane, whole, (lane * 37) % count);
+        if (change) change(part);
         part.time = whole.time;
-        if (part.update(1.0).status != GAULT_OK) return fmt::format("{}: no answer", how);
-        for (std::size_t i = 0; i < points.size(); ++i)
-            if (!same_bits(outcome(part, i), outcome(whole, points[i])))
-                return fmt::format("{}: a point comes to another result", how);
-        return std::string();
+        if (part.update(1.0, tangent).status != GAULT_OK) {
+            wrong = fmt::format("{}: no answer", how);
+            return;
+        }
+        for (std::size_t i = 0; i < points.size() && wrong.empty(); ++i)
+            if (const auto a = outcome(part, i), b = outcome(whole, points[i]); !same_bits(a, b))
+                wrong = fmt::format("{}: a point comes to another result, {}", how, size_of_difference(a, b));
     };
     std::vector<std::size_t> all(count), shuffled;
     std::iota(all.begin(), all.end(), 0);
     shuffled = all;
     std::shuffle(shuffled.begin(), shuffled.end(), Random(2));
-    std::string wrong = differs(shuffled, "shuffled", false);
-    for (std::size_t i = 0; i < count && wrong.empty(); i += 5)
-        wrong = differs({i}, "alone", false);
-    for (std::size_t i = 0; i + 11 < count && wrong.empty(); i += 11)
-        wrong = differs(
+    expect_same(all, "a second time");
+    expect_same(shuffled, "shuffled");
+    for (std::size_t i = 0; i < count; i += 5)
+        expect_same({i}, "alone");
+    for (std::size_t i = 0; i + 11 < count; i += 11)
+        expect_same(
             {all.begin() + static_cast<std::ptrdiff_t>(i), all.begin() + static_cast<std::ptrdiff_t>(i) + 11},
-            "split", false);
-    if (wrong.empty()) wrong = differs({7, 11, 13}, "padded with other points", true);
+            "split");
+    expect_same({7, 11, 13}, "padded with other points", [&](PointBatch& part) {
+        for (std::size_t lane = part.count(); lane < part.strain[0].size(); ++lane)
+            part.take(lane, whole, (lane * 37) % count);
+    });
+    expect_same(all, "not asked for moduli", [](PointBatch& part) {
+        part.modulus.clear();
+        part.shear_modulus.clear();
+    });
+    if (material.api().flags & GAULT_HAS_TANGENT) expect_same(all, "asked for its tangent", {}, true);
     return judge(wrong.empty(), wrong.empty() ? fmt::format("{} points, the same bits", count) : wrong);
 }
+
+namespace {
+
+std::vector<const Column*> answers_of(const PointBatch& batch) {
+    std::vector<const Column*> columns = {&batch.modulus, &batch.shear_modulus};
+    for (const Column& c : batch.stress)
+        columns.push_back(&c);
+    for (const Column& c : batch.state)
+        columns.push_back(&c);
+    return columns;
+}
+
+bool same_answers(const PointBatch& a, const PointBatch& b) {
+    const std::vector<const Column*> left = answers_of(a), right = answers_of(b);
+    return std::equal(left.begin(), left.end(), right.begin(), [&](const Column* x, const Column* y) {
+        return std::memcmp(x->data(), y->data(), a.count() * sizeof(double)) == 0;
+    });
+}
+
+} // namespace
 
 Finding threads(const Subject& subject) {
     const Material material(subject.use);
     if (material.one_at_a_time()) return left_out("declares that it is called by one thread at a time");
     constexpr std::size_t workers = 4, points = 160;
-    constexpr int turns = 40;
+    constexpr double seconds = 0.1;
+    constexpr int least_turns = 10;
     const PointBatch once = answered(material, subject.stress, points);
-    std::vector<PointBatch> batches(workers, once);
-    std::vector<int> wrong(workers, 0);
+    std::vector<PointBatch>
+        batches; // each begins with another point, so that no two work on the same one at once
+    for (std::size_t w = 0; w < workers; ++w) {
+        PointBatch& batch = batches.emplace_back(once);
+        for (std::size_t i = 0; i < points; ++i)
+            batch.take(i, once, (i + w * points / workers) % points);
+        batch.pad();
+        if (batch.update(1.0).status != GAULT_OK) return failed("no answer to the points in another order");
+    }
+    std::vector<int> wrong(workers, 0), turns(workers, 0);
+    std::latch together(workers);
     std::vector<std::thread> team;
     for (std::size_t w = 0; w < workers; ++w)
         team.emplace_back([&, w] {
-            for (int turn = 0; turn < turns; ++turn) {
-                const bool good = batches[w].update(1.0).status == GAULT_OK;
-                for (std::size_t i = 0; i < points; ++i)
-                    wrong[w] += !good || !same_bits(outcome(batches[w], i), outcome(once, i));
-            }
+            PointBatch batch = batches[w];
+            together.arrive_and_wait();
+            const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+            for (; turns[w] < least_turns || std::chrono::steady_clock::now() < end; ++turns[w])
+                wrong[w] += batch.update(1.0).status != GAULT_OK || !same_answers(batch, batches[w]);
         });
     for (std::thread& t : team)
         t.join();
-    const int total = std::accumulate(wrong.begin(), wrong.end(), 0);
-    return judge(total == 0, total == 0
-                                 ? fmt::format("{} threads, {} calls", workers, workers * turns)
-                                 : fmt::format("{} results of {} differ", total, workers * points * turns));
+    const int total = std::accumulate(wrong.begin(), wrong.end(), 0),
+              calls = std::accumulate(turns.begin(), turns.end(), 0);
+    return judge(total == 0, total == 0 ? fmt::format("{} threads, {} calls", workers, calls)
+                                        : fmt::format("{} calls of {} come to another result", total, calls));
 }
 
-Finding increments(const Subject& subject) {
-    constexpr std::size_t count = 40, bad = 5;
-    const Material material(subject.use);
-    PointBatch batch = answered(material, subject.stress, count);
-    const PointBatch before = batch;
-    const auto all = [&](const char* what, double size) -> std::string {
-        Random random(3);
-        for (std::size_t i = 0; i < count; ++i)
-            batch.set_strain(i, size == 0.0 ? Tensor{} : random_tensor(random, size));
-        batch.pad();
-        if (batch.update(1.0).status != GAULT_OK)
-            return size <= 1e-12 ? fmt::format("{}: no answer", what) : "";
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::vector<double> row = outcome(batch, i);
-            if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
-                return fmt::format("{}: an answer that is not finite", what);
-            double change = 0.0, scale = 1.0;
-            for (std::size_t k = 0; k < 6; ++k) {
-                change = std::max(change, std::abs(batch.stress[k][i] - batch.stress_old[k][i]));
-                scale = std::max(scale, std::abs(batch.stress_old[k][i]));
-            }
-            if (size <= 1e-200 && !material.rate_dependent() && change > 1e-8 * scale)
-                return fmt::format("{}: the stress changes by {:.2g} of itself", what, change / scale);
-        }
-        return "";
-    };
-    for (const auto& [what, size] :
-         {std::pair{"no increment", 0.0}, {"1e-300", 1e-300}, {"1", 1.0}, {"1e3", 1e3}, {"1e10", 1e10}})
-        if (const std::string wrong = all(what, size); !wrong.empty()) return failed(wrong);
-    for (std::size_t i = 0; i < count; ++i)
-        batch.take(i, before, i);
-    batch.strain[0][bad] = std::nan("");
+namespace {
+
+constexpr int to_rest = 100; // steps without strain
+const char* const component_names[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+
+// A point that is not strained stays as it is, over a step of no length too. What is wrong; empty: nothing.
+std::string at_rest(PointBatch batch, double scale) {
+    const PointBatch start = batch;
+    for (std::size_t i = 0; i < batch.count(); ++i)
+        batch.set_strain(i, {});
     batch.pad();
-    if (batch.update(1.0).status == GAULT_OK) {
-        const Tensor stress = batch.get(batch.stress, bad);
-        if (std::all_of(stress.begin(), stress.end(), [](double x) { return std::isfinite(x); }))
-            return failed("NaN: a finite stress, as if nothing were wrong");
-        for (std::size_t i = 0; i < count; ++i)
-            if (i != bad && !same_bits(outcome(batch, i), outcome(before, i)))
-                return failed("NaN: spoils the points beside it");
+    for (int step = 0; step < to_rest; ++step) {
+        const double dt = step == 0 ? 0.0 : 1.0;
+        const UpdateFailure failure = batch.update(dt);
+        if (failure.status != GAULT_OK)
+            return fmt::format("no strain, over {:g} s: no answer: {}", dt,
+                               failure.text.empty() ? "RETRY" : failure.text);
+        for (std::size_t i = 0; i < batch.count(); ++i)
+            if (!all_finite(outcome(batch, i)))
+                return fmt::format("no strain, over {:g} s: an answer that is not finite", dt);
+        batch.accept();
+        batch.time += dt;
+        if (batch.material().rate_dependent() && dt > 0.0) continue;
+        double change = 0.0;
+        for (std::size_t i = 0; i < batch.count(); ++i)
+            for (std::size_t k = 0; k < 6; ++k)
+                change = std::max(change, std::abs(batch.stress_old[k][i] - start.stress_old[k][i]));
+        if (change > 1e-5 * scale)
+            return fmt::format("no strain: the stress creeps, by {:.1g} of the largest in {} steps",
+                               change / scale, step + 1);
     }
-    return passed("0, 1e-300, 1, 1e3, 1e10, NaN");
+    return "";
+}
+
+// Of one point at a time, for one that asks for less would hide the others.
+std::string answer_to(const PointBatch& cloud, double size) {
+    Random random(3);
+    for (std::size_t i = 0; i < cloud.count(); ++i) {
+        PointBatch one(cloud.material(), 1);
+        one.take(0, cloud, i);
+        one.time = cloud.time;
+        one.set_strain(0, random_tensor(random, size));
+        one.pad();
+        const gault_status status = one.update(1.0).status;
+        if (status == GAULT_RETRY || status == GAULT_FAILED) {
+            if (size < 1e-6) return fmt::format("a strain of {:g}: no answer", size);
+            continue;
+        }
+        if (status != GAULT_OK) return fmt::format("a strain of {:g}: the unknown status {}", size, status);
+        if (!all_finite(outcome(one, 0)))
+            return fmt::format("a strain of {:g}: an answer that is not finite", size);
+    }
+    return "";
+}
+
+std::string answer_to_nan(const PointBatch& before, std::size_t component) {
+    constexpr std::size_t bad = 5;
+    PointBatch batch = before;
+    batch.strain[component][bad] = std::nan("");
+    if (before.material().finite_strain()) batch.F_new[component][bad] = std::nan("");
+    batch.pad();
+    if (batch.update(1.0).status != GAULT_OK) return "";
+    const Tensor stress = batch.get(batch.stress, bad);
+    if (std::all_of(stress.begin(), stress.end(), [](double x) { return std::isfinite(x); }))
+        return fmt::format("NaN for {}: a finite stress, as if nothing were wrong",
+                           component_names[component]);
+    for (std::size_t i = 0; i < batch.count(); ++i)
+        if (i != bad && !same_bits(outcome(batch, i), outcome(before, i)))
+            return fmt::format("NaN for {} spoils the points beside it", component_names[component]);
+    return "";
+}
+
+} // namespace
+
+Finding increments(const Subject& subject) {
+    constexpr std::size_t count = 40;
+    const Material material(subject.use);
+    const PointBatch before = answered(material, subject.stress, count);
+    double scale = 1.0;
+    for (const Column& c : before.stress_old)
+        for (const double x : c)
+            scale = std::max(scale, std::abs(x));
+    if (const std::string wrong = at_rest(before, scale); !wrong.empty()) return failed(wrong);
+    const bool volume = material.wants(HostField::density) || material.wants(HostField::volume_ratio);
+    const std::vector<double> sizes = material.finite_strain() ? std::vector{1e-300, 0.1, 1.0, 3.0}
+                                      // det F has digits
+                                      : volume ? std::vector{1e-300, 1.0, 10.0, 100.0} // exp() is a number
+                                               : std::vector{1e-300, 1.0, 1e3, 1e10};
+    for (const double size : sizes)
+        if (const std::string wrong = answer_to(before, size); !wrong.empty()) return failed(wrong);
+    for (std::size_t component = 0; component < 4; ++component) // what a scene strains
+        if (const std::string wrong = answer_to_nan(before, component); !wrong.empty()) return failed(wrong);
+    return passed(fmt::format("0, {:g}, NaN", fmt::join(sizes, ", ")));
 }
 
 Finding retry(const Subject& subject) {
     const Material material(subject.use);
     Random random(4);
     const PointBatch cloud = scatter(material, subject.stress, 64, 12, 2e-3, random);
-    int asked = 0;
+    int asked = 0, tried = 0;
     for (std::size_t i = 0; i < cloud.count(); ++i)
         for (const double size : {1e-3, 1e-2, 0.1}) {
             const Tensor increment = random_tensor(random, size);
             PointBatch one(material, 1);
             gault_status status = GAULT_RETRY;
-            std::string text;
+            ++tried;
             for (int pieces = 1; status == GAULT_RETRY && pieces <= 1024; pieces *= 2) {
                 one.take(0, cloud, i);
-                Tensor part = increment;
-                for (double& e : part)
-                    e /= pieces;
+                one.time = cloud.time;
                 status = GAULT_OK;
                 for (int piece = 0; piece < pieces && status == GAULT_OK; ++piece) {
-                    one.set_strain(0, part);
+                    one.set_strain(0, scaled(increment, 1.0 / pieces));
                     one.pad();
                     status = one.update(1.0 / pieces).status;
                     one.accept();
+                    one.time += 1.0 / pieces;
                 }
-                if (pieces > 1 || status != GAULT_RETRY) continue;
-                ++asked;
+                if (status != GAULT_RETRY) continue;
+                asked += pieces == 1;
                 if (!(one.suggested > 0.0 && one.suggested < 1.0))
                     return failed(fmt::format("suggests {:g} of the step; it must be above 0 and below 1",
                                               one.suggested));
             }
-            if (status == GAULT_RETRY)
+            if (status == GAULT_RETRY && size < 0.1)
                 return failed(fmt::format("an increment of {:g} is not answered in 1024 parts", size));
         }
-    return passed(asked ? fmt::format("asked {} times of {}", asked, 3 * cloud.count())
-                        : "never asks for less");
+    return passed(asked ? fmt::format("asked {} times of {}", asked, tried) : "never asks for less");
+}
+
+// The same strains in a thousandth of the time, earlier.
+Finding rate(const Subject& subject) {
+    constexpr double rounding = 1e-9;
+    const Material material(subject.use);
+    const PointBatch slow = answered(material, subject.stress, 40);
+    PointBatch fast = slow;
+    fast.time = 0.5 * slow.time;
+    if (fast.update(1e-3).status != GAULT_OK && !material.rate_dependent())
+        return failed("a faster step is not answered, and no dependence on the rate is declared");
+    int differ = 0;
+    double most = 0.0;
+    for (std::size_t i = 0; i < slow.count(); ++i) {
+        Tensor difference = fast.get(fast.stress, i);
+        for (std::size_t k = 0; k < 6; ++k)
+            difference[k] -= slow.stress[k][i];
+        const double taking_part =
+            std::max({largest(slow.get(slow.stress, i)), largest(slow.get(slow.stress_old, i)), 1e-300});
+        differ += largest(difference) > rounding * taking_part;
+        most = std::max(most, largest(difference) / taking_part);
+    }
+    const std::string found = fmt::format(
+        "{} of {} points differ in a thousandth of the time, by {:.1g} at most", differ, slow.count(), most);
+    if (material.rate_dependent()) return passed("declared; " + found);
+    return judge(differ == 0, differ == 0 ? "none" : "not declared; " + found);
 }
 
 } // namespace gault::core::checks

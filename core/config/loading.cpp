@@ -164,7 +164,7 @@ void read_solver(const Source& source, Scene& scene) {
         solver.strain_step = fields.quantity("strain_step", "1", positive);
     else if (!inertia)
         note_choice(scene, fields.path("strain_step"), fmt::format("{:g}", solver.strain_step),
-                    "what the soil allows is not looked at");
+                    "no pilot run is made");
     solver.tolerance =
         fields.quantity("tolerance", "1", {.min = 0.0, .max = 0.1, .min_open = true}, solver.tolerance);
     solver.mass_scaling = fields.quantity("mass_scaling", "1", {.min = 1.0}, solver.mass_scaling);

@@ -5,6 +5,7 @@
 #include "core/config/sections.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace gault::core {
 namespace {
@@ -42,7 +43,12 @@ Sample sample_of(const std::filesystem::path& file, const std::vector<Override>&
         throw InputError("no material of '" + file.string() + "' has the model '" + model + "'");
     const InitialStress& initial = scene.initial_stress;
     const double vertical = initial.vertical > 0.0 ? initial.vertical : pressure;
-    return {std::move(*found), {-initial.k0 * vertical, -vertical, -initial.k0 * vertical, 0.0, 0.0, 0.0}};
+    Sample sample{std::move(*found),
+                  {-initial.k0 * vertical, -vertical, -initial.k0 * vertical, 0.0, 0.0, 0.0}};
+    if (const std::optional<PoreWater> water = std::exchange(sample.material.water, std::nullopt))
+        for (std::size_t k = 0; k < 3; ++k)
+            sample.stress[k] += water->pressure;
+    return sample;
 }
 
 } // namespace gault::core

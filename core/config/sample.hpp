@@ -7,14 +7,15 @@ namespace gault::core {
 struct Sample {
     MaterialUse material;
     std::array<double, 6>
-        stress{}; // initial, Pa, tension positive; 100 kPa of pressure where nothing says another
+        stress{}; // initial, effective, Pa, tension positive; 100 kPa of pressure where nothing says another
 };
 
 // The model with these values of its parameters, the others at their defaults. InputError.
 MaterialUse material_from(const std::string& model, const std::vector<Override>& values,
                           const Registry& registry);
 
-// The first material of a scene, or that of a test of one point, that uses the model, with the initial stress there.
+// The first material of a scene, or that of a test of one point, that uses the model, with the initial stress there and
+// without the scene's water.
 // InputError: none uses it.
 Sample sample_of(const std::filesystem::path& file, const std::vector<Override>& overrides,
                  const std::string& model, const Registry& registry);

@@ -4,12 +4,13 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gault::core {
 
 PointBatch::PointBatch(const Material& material, std::size_t count)
     : state_old(static_cast<std::size_t>(material.state_components())), state(state_old.size()),
-      input(material.inputs().size()), material_(material), count_(count),
+      input(material.inputs().size()), material_(&material), count_(count),
       padded_(round_up(count, GAULT_LANES)) {
     const auto make = [this](auto& columns, double value = 0.0) {
         for (Column& column : columns)
@@ -18,6 +19,7 @@ PointBatch::PointBatch(const Material& material, std::size_t count)
     make(strain), make(stress_old), make(stress), make(state_old), make(state), make(input, 0.01);
     modulus.assign(padded_, 0.0);
     shear_modulus.assign(padded_, 0.0);
+    volume_ratio_.assign(padded_, 1.0);
     for (const StateInfo& info : material.states())
         for (int k = 0; k < static_cast<int>(info.declared.shape); ++k)
             state_old[static_cast<std::size_t>(info.first + k)].assign(padded_, info.declared.initial);
@@ -44,7 +46,12 @@ void PointBatch::set(std::array<Column, 6>& columns, std::size_t point, const Te
 
 void PointBatch::set_strain(std::size_t point, const Tensor& increment) {
     set(strain, point, increment);
-    if (!material_.finite_strain()) return;
+    const double ratio = volume_ratio_[point] * std::exp(increment[0] + increment[1] + increment[2]);
+    for (std::size_t k = 0; k < input.size(); ++k) {
+        if (material_->inputs()[k] == HostField::density) input[k][point] = material_->density() / ratio;
+        if (material_->inputs()[k] == HostField::volume_ratio) input[k][point] = ratio;
+    }
+    if (!material_->finite_strain()) return;
     const Matrix stretch = deformation_gradient(increment);
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -56,7 +63,7 @@ void PointBatch::set_strain(std::size_t point, const Tensor& increment) {
 }
 
 void PointBatch::set_states(std::size_t point, const std::map<std::string, std::vector<double>>& states) {
-    for (const StateInfo& info : material_.states())
+    for (const StateInfo& info : material_->states())
         if (const auto given = states.find(info.declared.name); given != states.end())
             for (std::size_t k = 0; k < given->second.size(); ++k)
                 state_old[static_cast<std::size_t>(info.first) + k][point] = given->second[k];
@@ -69,6 +76,7 @@ void PointBatch::take(std::size_t point, const PointBatch& from, std::size_t its
     };
     copy(strain, from.strain), copy(stress_old, from.stress_old), copy(state_old, from.state_old);
     copy(input, from.input), copy(F_old, from.F_old), copy(F_new, from.F_new);
+    volume_ratio_[point] = from.volume_ratio_[its_point];
 }
 
 void PointBatch::pad() {
@@ -79,6 +87,8 @@ void PointBatch::pad() {
                           column[count_ - 1]);
     };
     repeat(strain), repeat(stress_old), repeat(state_old), repeat(input), repeat(F_old), repeat(F_new);
+    std::fill(volume_ratio_.begin() + static_cast<std::ptrdiff_t>(count_), volume_ratio_.end(),
+              volume_ratio_[count_ - 1]);
 }
 
 UpdateFailure PointBatch::call(gault_status (*function)(const void*, gault_points*, gault_error*) noexcept,
@@ -105,9 +115,9 @@ UpdateFailure PointBatch::call(gault_status (*function)(const void*, gault_point
     p.state_old = old_states_.data();
     p.state = states_.data();
     p.input = inputs_.data();
-    p.modulus = modulus.data();
-    p.shear_modulus = shear_modulus.data();
-    for (std::size_t k = 0; k < 9 && material_.finite_strain(); ++k) {
+    p.modulus = modulus.empty() ? nullptr : modulus.data();
+    p.shear_modulus = shear_modulus.empty() ? nullptr : shear_modulus.data();
+    for (std::size_t k = 0; k < 9 && material_->finite_strain(); ++k) {
         p.F_old[k] = F_old[k].data();
         p.F_new[k] = F_new[k].data();
     }
@@ -116,7 +126,7 @@ UpdateFailure PointBatch::call(gault_status (*function)(const void*, gault_point
         p.tangent[k] = tangent[k].data();
     }
     gault_error error{-1, 0, -1, ""};
-    const gault_status status = function(material_.instance().self(), &p, &error);
+    const gault_status status = function(material_->instance().self(), &p, &error);
     suggested = p.suggest;
     if (status == GAULT_OK) return {};
     UpdateFailure failure{status, std::nullopt, error_text(error),
@@ -129,28 +139,22 @@ UpdateFailure PointBatch::start() {
     for (std::size_t k = 0; k < 6; ++k)
         stress[k] = stress_old[k];
     state = state_old;
-    if (!material_.api().start) return {};
-    const UpdateFailure failure = call(material_.api().start, 0.0, false);
+    if (!material_->api().start) return {};
+    const UpdateFailure failure = call(material_->api().start, 0.0, false);
     if (failure.status == GAULT_OK) state_old = state;
     return failure;
 }
 
 UpdateFailure PointBatch::update(double dt, bool wants_tangent) {
-    return call(material_.api().update, dt, wants_tangent);
+    return call(material_->api().update, dt, wants_tangent);
 }
 
 void PointBatch::accept() {
     stress_old = stress;
     state_old = state;
     F_old = F_new;
-}
-
-void PointBatch::accept(std::size_t point) {
-    set(stress_old, point, get(stress, point));
-    for (std::size_t k = 0; k < state.size(); ++k)
-        state_old[k][point] = state[k][point];
-    for (std::size_t k = 0; k < 9 && material_.finite_strain(); ++k)
-        F_old[k][point] = F_new[k][point];
+    for (std::size_t i = 0; i < padded_ && !input.empty(); ++i)
+        volume_ratio_[i] *= std::exp(strain[0][i] + strain[1][i] + strain[2][i]);
 }
 
 Matrix deformation_gradient(const Tensor& e) {

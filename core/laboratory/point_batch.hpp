@@ -18,11 +18,11 @@ class PointBatch {
     PointBatch(const Material& material, std::size_t count);
 
     std::size_t count() const { return count_; }
-    const Material& material() const { return material_; }
+    const Material& material() const { return *material_; }
 
     Tensor get(const std::array<Column, 6>& columns, std::size_t point) const;
     void set(std::array<Column, 6>& columns, std::size_t point, const Tensor& value);
-    // The increment of strain, and with it F_new = exp(increment) F_old.
+    // The increment of strain, and what follows from it: F_new = exp(increment) F_old, volume ratio, density.
     void set_strain(std::size_t point, const Tensor& increment);
     // The old ones that are named; every one has as many values as its shape.
     void set_states(std::size_t point, const std::map<std::string, std::vector<double>>& states);
@@ -38,25 +38,24 @@ class PointBatch {
     UpdateFailure update(double dt, bool tangent = false);
     // The answer of the last update becomes the state that the next starts from.
     void accept();
-    // accept() for one point alone.
-    void accept(std::size_t point);
 
     std::array<Column, 6> strain, stress_old, stress; // increments; Pa
     std::vector<Column> state_old, state, input;      // a column a component; a column an input
     std::array<Column, 9> F_old, F_new;               // where the model wants them
     std::array<Column, 36> tangent;                   // empty until asked for
-    Column modulus, shear_modulus;
-    double time = 0.0;      // s, of the accepted state
-    double suggested = 0.5; // of the step, as the model left it
+    Column modulus, shear_modulus;                    // emptied: the model is not asked
+    double time = 0.0;                                // s, of the accepted state
+    double suggested = 0.5;                           // of the step, as the model left it
 
   private:
     UpdateFailure call(gault_status (*function)(const void*, gault_points*, gault_error*) noexcept, double dt,
                        bool wants_tangent);
 
-    const Material& material_;
+    const Material* material_;
     std::size_t count_, padded_;
     std::vector<const double*> old_states_, inputs_;
     std::vector<double*> states_;
+    Column volume_ratio_; // current over initial, of the accepted state
 };
 
 // exp(e), row-major: the deformation gradient of a logarithmic strain without rotation.

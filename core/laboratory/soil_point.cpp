@@ -91,9 +91,7 @@ void SoilPoint::strain(const Tensor& increment, double dt) {
     const PointBatch before = batch_;
     const Tensor total = total_;
     for (int pieces = 2; failure.status == GAULT_RETRY && pieces <= most_pieces; pieces *= 2) {
-        batch_.stress_old = before.stress_old;
-        batch_.state_old = before.state_old;
-        batch_.time = before.time;
+        batch_ = before;
         total_ = total;
         failure = {};
         for (int piece = 0; piece < pieces && failure.status == GAULT_OK; ++piece) {

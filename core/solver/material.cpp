@@ -409,10 +409,12 @@ void call_at_rest(const Material& material, Points& points, const GridView& grid
         for (int k = 0; k < material.state_components(); ++k)
             std::copy_n(columns.state[k].data() + first, n, workspace.column(Workspace::state_old + k));
         fill_inputs(material, whole.p, view, workspace, n, grid);
-        if (material.water()) take_water_off(material, workspace.old_states.back(), n, view.stress_old);
-        for (std::size_t k = 0; k < 6; ++k) { // the model's answer stays here
-            std::copy_n(view.stress_old[k], n, spare[k].data());
-            whole.p.stress[k] = spare[k].data();
+        if (material.water()) {
+            take_water_off(material, workspace.old_states.back(), n, view.stress_old);
+            for (std::size_t k = 0; k < 6; ++k) { // the points keep the total stress
+                std::copy_n(view.stress_old[k], n, spare[k].data());
+                whole.p.stress[k] = spare[k].data();
+            }
         }
         prepare(whole.p, first, spare);
         gault_error error{-1, 0, -1, ""};
@@ -452,6 +454,8 @@ void evaluate_moduli(const Material& material, Points& points, const GridView& g
         [&](gault_points& p, std::size_t first, std::vector<Column>& spare) {
             p.modulus = modulus.data() + first;
             p.shear_modulus = shear.data() + first;
+            for (int k = 0; k < 6; ++k)
+                p.stress[k] = spare[k].data();
             for (std::size_t k = 0; k < states.size(); ++k)
                 states[k] = spare[6 + k].data();
             p.state = states.data();

@@ -30,7 +30,7 @@ function(_gault_add_plugin_variant target name folder sources no_install)
     file(CONFIGURE OUTPUT ${exports} CONTENT "{ global: gault_module_v*; local: *; };\n")
     add_library(${target} MODULE ${sources})
     target_link_options(${target} PRIVATE -Wl,--version-script=${exports})
-    target_link_libraries(${target} PRIVATE gault::sdk m)
+    target_link_libraries(${target} PRIVATE gault::sdk -lm) # a plugin may be named m
     target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -fvisibility=hidden -Wno-psabi
                                              $<$<COMPILE_LANGUAGE:CXX>:-fvisibility-inlines-hidden>
                                              $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>)

@@ -331,6 +331,7 @@ TEST(Scene, TakesTheLeastThatIsEnoughAndSaysWhy) {
                         "points.per_cell: 16 (four a direction)",
                         "points.placement: gauss (mass and forces are integrated as surface loads are)",
                         "initial.stress: 0 Pa (nothing is said)",
+                        "solver.strain_step: 0.005 (no pilot run is made)",
                         "output.frames: the last state (none are asked for)"}));
 }
 

@@ -1,0 +1,23 @@
+# cmake -DBUILD= -DGAULT= -DWORK= -P new_test.cmake: from nothing to a certified soil in a scene, with what `gault new` says.
+include(${CMAKE_CURRENT_LIST_DIR}/must.cmake)
+
+set(prefix ${WORK}/prefix)
+set(soil ${WORK}/my_soil)
+file(REMOVE_RECURSE ${WORK})
+must(${CMAKE_COMMAND} --install ${BUILD} --component sdk --prefix ${prefix})
+must(${GAULT} new material my_soil -o ${soil})
+must_print("cmake -S . -B build")
+must_print("gault run scene.yaml")
+must(${CMAKE_COMMAND} -S ${soil} -B ${soil}/build -DCMAKE_PREFIX_PATH=${prefix})
+must(${CMAKE_COMMAND} --build ${soil}/build)
+must(${CMAKE_CTEST_COMMAND} --test-dir ${soil}/build --output-on-failure)
+must_print("100% tests passed")
+must(${GAULT} run ${soil}/scene.yaml -o ${WORK}/run)
+must(${GAULT} element ${soil}/triaxial.yaml -o ${WORK}/element --no-figure)
+must(${GAULT} certify my_soil --with ${soil}/scene.yaml --only batches --only objectivity)
+must_print("certified")
+
+execute_process(COMMAND ${GAULT} new material my_soil -o ${soil} RESULT_VARIABLE status ERROR_VARIABLE output)
+if(NOT status EQUAL 2)
+    message(FATAL_ERROR "a folder that is not empty ended with ${status}: ${output}")
+endif()
