@@ -20,7 +20,7 @@ endforeach()
 must(${CMAKE_COMMAND} -E compare_files ${WORK}/baseline/history.csv ${WORK}/x86-64-v4/history.csv)
 must(${CMAKE_COMMAND} -E env GAULT_ISA=baseline ${gault} certify modified_cam_clay --only batches --only cavity
      --set critical_state_ratio=1.2 --set compression_index=0.15 --set swelling_index=0.03 --set poisson_ratio=0.278
-     --set critical_state_volume=2.74)
+     --set critical_state_volume=2.74 --set overconsolidation_ratio=1)
 must_print("certified")
 
 must(${gault} new material my_soil -o ${WORK}/my_soil)
