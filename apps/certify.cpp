@@ -112,7 +112,7 @@ int certify(const Arguments& arguments) {
     const auto results = core::certify(subject, arguments.only);
     fmt::print("{}", core::certificate_table(results));
     if (!arguments.json.empty())
-        core::write_atomically(arguments.json, core::certificate_json(subject, results).dump(2) + "\n");
+        core::write_atomically(fs::absolute(arguments.json), core::certificate_json(subject, results).dump(2) + "\n");
     const bool good = core::passed(results);
     fmt::print("{}\n", good ? "certified" : "not certified");
     return good ? 0 : 3;

@@ -30,11 +30,12 @@ std::optional<PointBatch> answered_one(const PointBatch& cloud, std::size_t poin
                                        Random& random, double dt = 1.0);
 
 // d stress / d strain of the call in hand, of one point, by differences of strains shifted to both sides; columns as in
-// gault.h. Nothing: a shifted strain is not answered.
+// gault.h. Of three shifts that at which the sides agree best: rounding spoils the shorter, curvature the longer. Nothing:
+// a shifted strain is not answered.
 struct Differences {
     Matrix6 central;
     double bend; // the largest difference of an entry between the one side and the other
 };
-std::optional<Differences> differences(const PointBatch& call, double shift, double dt);
+std::optional<Differences> differences(const PointBatch& call, double dt);
 
 } // namespace gault::core

@@ -50,7 +50,7 @@ bool is_elastic(const PointBatch& call) {
         return change;
     };
     const std::optional<Tensor> change = change_after(1.5), rest = change ? change_after(-1.5) : change;
-    return rest && largest(*rest) <= 1e-7 * largest(*change) + 1e-13 * largest(start);
+    return rest && largest(*rest) <= 1e-4 * largest(*change) + 1e-13 * largest(start);
 }
 
 // The bound as the host asks for it: at rest.
@@ -63,10 +63,10 @@ bool ask_for_moduli(PointBatch& point) {
 } // namespace
 
 // Elastic waves are bounded, to a tenth of the host's margin. Flow that is not associated makes some that are faster
-// than any elastic one, in Mohr-Coulomb sand up to twice the modulus: a property of the theory, which an explicit run
-// bears up to 1 / 0.9^2 by its step and beyond by its viscous stress.
+// than any elastic one, in Mohr-Coulomb sand by more than twice the modulus: a property of the theory, which an explicit
+// run bears up to 1 / 0.9^2 by its step and beyond by its viscous stress. A soil that is nowhere elastic is held to that.
 Finding modulus(const Subject& subject) {
-    constexpr double exact = 1.01, borne = 1.0 / (0.9 * 0.9), most_of_flow = 2.0;
+    constexpr double exact = 1.01, borne = 1.0 / (0.9 * 0.9);
     const Material material(subject.use);
     Random random(9);
     double most[2] = {0.0, 0.0};
@@ -84,16 +84,16 @@ Finding modulus(const Subject& subject) {
                 return failed(
                     fmt::format("reports a modulus of {:g} Pa and a shear modulus of {:g} Pa", bound, shear));
             const std::optional<PointBatch> one = answered_one(cloud, i, 1e-8, 1e-7, random, quick);
-            const std::optional<Differences> d = one ? differences(*one, 1e-9, quick) : std::nullopt;
+            const std::optional<Differences> d = one ? differences(*one, quick) : std::nullopt;
             if (!d || d->bend > 1e-3 * bound) continue; // from one branch into another
             const int kind = is_elastic(*one) ? 0 : 1;
             ++points[kind];
             most[kind] = std::max(most[kind], fastest_wave(d->central, random) / bound);
         }
     }
-    if (points[0] + points[1] == 0) return failed("no point was answered");
+    if (points[0] + points[1] == 0) return left_out("the stress bends at every point");
     return judge(
-        most[0] <= exact && most[1] <= most_of_flow,
+        most[0] <= exact && (points[0] > 0 || most[1] <= borne),
         fmt::format("of it, the fastest wave needs {:.4f} in {} elastic points, {:.3f} in {} that yield{}",
                     most[0], points[0], most[1], points[1],
                     most[1] > borne ? "; explicit runs want solver.viscosity: 0.3" : ""));

@@ -28,7 +28,9 @@ MaterialUse material_from(const std::string& model, const std::vector<Override>&
     config::apply_override(node, {"model", model});
     for (const Override& value : values)
         config::apply_override(node, value);
-    return config::read_material(node, model, model, registry, density);
+    MaterialUse use = config::read_material(node, model, model, registry, density);
+    use.water.reset();
+    return use;
 }
 
 Sample sample_of(const std::filesystem::path& file, const std::vector<Override>& overrides,

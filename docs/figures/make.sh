@@ -13,3 +13,4 @@ cp "$results/element/element.png" docs/figures/element.png
 /usr/bin/python3 docs/figures/convergence.py
 /usr/bin/python3 docs/figures/accuracy.py
 /usr/bin/python3 docs/figures/biaxial.py
+/usr/bin/python3 docs/figures/certificates.py

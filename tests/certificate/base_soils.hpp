@@ -162,6 +162,14 @@ struct Finite : Elastic {
     }
 };
 
+using Update = gault_status (*)(const void*, gault_points*, gault_error*) noexcept;
+template <class T>
+constexpr gault_material_api answered_by(Update update) {
+    gault_material_api a = gault::detail::material_api<T>();
+    a.update = update;
+    return a;
+}
+
 // A soil whose answers T::spoil spoils afterwards, and whose status it chooses.
 template <class T>
 struct Spoilt {
@@ -169,11 +177,6 @@ struct Spoilt {
         const gault_status status = gault::detail::update<T>(self, points, error);
         return status == GAULT_OK ? T::spoil(*points) : status;
     }
-    static constexpr gault_material_api changed() {
-        gault_material_api a = gault::detail::material_api<T>();
-        a.update = &update;
-        return a;
-    }
-    static constexpr gault_material_api api = changed();
+    static constexpr gault_material_api api = answered_by<T>(&update);
     static constexpr gault_component declaration = gault::detail::component<T>(GAULT_MATERIAL, &api);
 };

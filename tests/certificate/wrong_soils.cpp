@@ -1,7 +1,6 @@
 // Soils that are wrong in one way each. Where nothing else is said, linear elasticity.
 #include "tests/certificate/base_soils.hpp"
 
-#include <csignal>
 #include <cstdlib>
 #include <thread>
 
@@ -100,6 +99,22 @@ struct ByCalls : Elastic { // remembers that it was called
         return GAULT_OK;
     }
 };
+struct LeavesStates : Elastic { // writes no state, since none changes
+    static constexpr const char* name = "leaves_states";
+    static constexpr std::array states{gault::scalar_state("cementation", "1", "Of the grains.", 0)};
+};
+struct WithoutStates {
+    static gault_status update(const void* self, gault_points* points, gault_error* error) noexcept {
+        alignas(64) double aside[1024];
+        double* states[] = {aside};
+        gault_points changed = *points;
+        changed.state = states;
+        return gault::detail::update<LeavesStates>(self, &changed, error);
+    }
+    static constexpr gault_material_api api = answered_by<LeavesStates>(&update);
+    static constexpr gault_component declaration =
+        gault::detail::component<LeavesStates>(GAULT_MATERIAL, &api);
+};
 struct WantsModuli : Elastic { // writes them to a host that did not ask
     static constexpr const char* name = "wants_moduli";
     static gault_status spoil(gault_points& p) {
@@ -178,7 +193,7 @@ struct DiesOfStrain : Elastic { // of half and more
         static volatile bool for_ever = true;
         while (kind == 0 && for_ever) {
         }
-        if (kind == 1) std::raise(SIGSEGV);
+        if (kind == 1) std::abort();
         if (kind == 2) std::exit(0);
     }
 };
@@ -357,7 +372,7 @@ struct RefusesToStart : Elastic {
 GAULT_MODULE("wrong_soils", "1.0.0", "The Gault authors", "MIT", gault::Material<Undocumented>,
              gault::Material<AtItsBound<0>>, gault::Material<AtItsBound<1>>, gault::Material<AtItsBound<2>>,
              gault::Material<AtItsBound<3>>, gault::Material<OneForAll>, Spoilt<ByPosition>,
-             gault::Material<ByNeighbour>, Spoilt<ByPadding>, Spoilt<ByOrder>, Spoilt<ByCalls>,
+             gault::Material<ByNeighbour>, Spoilt<ByPadding>, Spoilt<ByOrder>, Spoilt<ByCalls>, WithoutStates,
              Spoilt<WantsModuli>, gault::Material<TangentOnTheWay>, Spoilt<SharedScratch>,
              gault::Material<CreepsAtRest>, gault::Material<SwallowsNan>, gault::Material<Overflows>,
              gault::Material<DividesByTime>, gault::Material<DiesOfStrain<0>>,
