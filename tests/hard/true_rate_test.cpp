@@ -13,7 +13,8 @@ INSTANTIATE_TEST_SUITE_P(Starts, TrueRate, testing::Values("ramp_time: 1 ns", "r
 // Ten times slower than SmoothStart.IsForgottenAtTenPercent: the wave is a tenth, 0.44 kPa, and so is what it leaves.
 TEST_P(TrueRate, HasTheExactPressureAtTenPercent) {
     HardScene s("hard/sand_cavity",
-                {{"model", "{frame: total, solver: explicit}"},
+                {{"model.frame", "total"},
+                 {"model.solver", "explicit"},
                  {"geometry.annulus.outer_radius", "200 mm"},
                  {"grid.cells", "30"},
                  {"boundaries.0", "{on: outer, type: pressure, value: 90 kPa}"},
