@@ -63,7 +63,7 @@ bool ask_for_moduli(PointBatch& point) {
 } // namespace
 
 // Elastic waves are bounded, to a tenth of the host's margin. Flow that is not associated makes some that are faster
-// than any elastic one, in Mohr-Coulomb sand by more than twice the modulus: a property of the theory, which an explicit
+// than any elastic one, in sand by more than twice the modulus: a property of the theory, which an explicit
 // run bears up to 1 / 0.9^2 by its step and beyond by its viscous stress. A soil that is nowhere elastic is held to that.
 Finding modulus(const Subject& subject) {
     constexpr double exact = 1.01, borne = 1.0 / (0.9 * 0.9);
