@@ -5,6 +5,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 namespace gault::core {
 namespace {
 
@@ -414,7 +416,8 @@ TEST(Override, RefusesAValueThatIsNotYaml) {
 
 class ScenePlugins : public testing::Test {
   protected:
-    fs::path file = fs::path(testing::TempDir()) / "gault_scene_plugins" / "scene.yaml";
+    fs::path file =
+        fs::path(testing::TempDir()) / ("gault-scene-plugins-" + std::to_string(getpid())) / "scene.yaml";
     void SetUp() override {
         fs::create_directories(file.parent_path() / "mine");
         std::ofstream(file.parent_path() / "other.so");

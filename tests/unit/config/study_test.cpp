@@ -5,6 +5,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 namespace gault::core {
 namespace {
 
@@ -12,7 +14,7 @@ namespace fs = std::filesystem;
 
 class StudyFile : public testing::Test {
   protected:
-    StudyFile() : folder(fs::path(testing::TempDir()) / "study") {
+    StudyFile() : folder(fs::path(testing::TempDir()) / ("gault-study-" + std::to_string(getpid()))) {
         fs::create_directories(folder);
         std::ofstream(folder / "scene.yaml") << "gault: 1\n";
     }

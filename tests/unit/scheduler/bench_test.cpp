@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -55,7 +57,7 @@ TEST_F(Bench, TimesTheWholeRunWhereNoEndIsKnown) {
 }
 
 TEST_F(Bench, HasNoErrorWhereTheCurveCannotBeCompared) {
-    const std::string file = testing::TempDir() + "gault-bench.csv";
+    const std::string file = testing::TempDir() + "gault-bench-" + std::to_string(getpid()) + ".csv";
     std::ofstream(file) << "time_s,tens_1\n5,1\n6,2\n"; // later than the run
     s.scene.curves = {{"time", "tens", file, 5.0, 6.0, {}, {}}};
     EXPECT_TRUE(std::isnan(report(HUGE_VAL).curve_error));
