@@ -6,7 +6,7 @@
 namespace gault::core {
 namespace {
 
-constexpr double strain_between_limits = 0.02, strain_between_looks = 0.002, stiffer = 1.05;
+constexpr double strain_between_limits = 0.02, stiffer = 1.05;
 
 double largest(const Column& column) {
     return column.empty() ? 0.0 : *std::max_element(column.begin(), column.end());
@@ -35,11 +35,8 @@ ExplicitSolver::Moduli ExplicitSolver::moduli() {
 
 bool ExplicitSolver::limit_is_stale() {
     if (limit_ == 0.0 || strained_ > strain_between_limits || fixed_.count() != fixed_count_) return true;
-    if (strained_ - looked_ < strain_between_looks) return false;
-    looked_ = strained_;
-    const Moduli now = moduli();
-    for (std::size_t m = 0; m < now.size(); ++m)
-        if (largest(now[m][0]) > stiffer * stiffest_[m]) return true;
+    for (std::size_t m = 0; m < stiffest_.size(); ++m)
+        if (motion_->largest_modulus(static_cast<int>(m)) > stiffer * stiffest_[m]) return true;
     return false;
 }
 
@@ -47,13 +44,13 @@ bool ExplicitSolver::limit_is_stale() {
 // Local damping adds up to its share to the forces that resist: it falls by sqrt(1 + alpha).
 void ExplicitSolver::refresh_limit(Moduli moduli) {
     std::vector<std::array<double, 2>> viscosity(moduli.size());
-    stiffest_.assign(moduli.size(), 0.0);
+    stiffest_.resize(moduli.size());
     for (std::size_t m = 0; m < moduli.size(); ++m) {
-        stiffest_[m] = largest(moduli[m][0]);
-        const double shear = largest(moduli[m][1]);
-        viscosity[m] = {settings_.viscosity * (stiffest_[m] - 2.0 * shear), settings_.viscosity * shear};
+        const double stiffest = largest(moduli[m][0]), shear = largest(moduli[m][1]);
+        stiffest_[m] = std::max(stiffest, motion_->largest_modulus(static_cast<int>(m)));
+        viscosity[m] = {settings_.viscosity * (stiffest - 2.0 * shear), settings_.viscosity * shear};
         for (double& modulus : moduli[m][0])
-            modulus += 2.0 * settings_.viscosity * stiffest_[m];
+            modulus += 2.0 * settings_.viscosity * stiffest;
         for (double& modulus : moduli[m][1])
             modulus += 2.0 * settings_.viscosity * shear;
     }
@@ -64,7 +61,7 @@ void ExplicitSolver::refresh_limit(Moduli moduli) {
     const double slow = 0.25 * limit_ * boundaries_.dashpot_rate(*motion_) / settings_.mass_scaling;
     limit_ *= std::sqrt(1.0 + slow * slow) - slow;
     motion_->set_viscosity(std::move(viscosity));
-    strained_ = looked_ = 0.0;
+    strained_ = 0.0;
 }
 
 void ExplicitSolver::integrate(double dt, const VectorField& internal) {

@@ -9,7 +9,7 @@ class ExplicitSolver final : public Solver {
     ExplicitSolver(const Scene& scene, Model& model, int threads);
 
     // The factor of the scene times the true limit, which is found anew when the soil has been strained by
-    // another 2 %, has become stiffer by 5 %, or is held otherwise.
+    // another 2 %, has said in a step that it is stiffer by 5 %, or is held otherwise.
     double allowed_step() override;
     bool step(double dt) override;
     double stability_limit() const override { return limit_; }
@@ -33,8 +33,8 @@ class ExplicitSolver final : public Solver {
     };
     std::vector<RowWork> work_of_row_; // of the last step
     double to_full_step_ = 0.0;        // what velocities half a step old lack of the kinetic energy, J
-    double limit_ = 0.0, strained_ = 0.0, looked_ = 0.0;
-    std::vector<double> stiffest_; // by material, Pa, where the limit was found
+    double limit_ = 0.0, strained_ = 0.0;
+    std::vector<double> stiffest_; // by material, Pa, when the limit was found
     std::size_t fixed_count_ = 0;
     std::vector<std::pair<int, std::size_t>> held_; // when the loads were evaluated
     double dt_before_ = 0.0;

@@ -338,7 +338,8 @@ std::shared_ptr<const ElementReplay> call_of(const Material& material, const gau
 
 UpdateFailure update_batch(const Material& material, Points& points, const std::vector<Column>& state_old,
                            const Batch& batch, const BatchView& view, Workspace& workspace,
-                           const Moment& moment, const GridView& grid, double* const* tangent) {
+                           const Moment& moment, const GridView& grid, double* const* tangent,
+                           const std::array<double*, 2>& moduli) {
     const std::size_t first = static_cast<std::size_t>(batch.first_page) * page_slots;
     const std::size_t n = static_cast<std::size_t>(batch.pages) * page_slots;
     if (n == 0) return {};
@@ -347,6 +348,8 @@ UpdateFailure update_batch(const Material& material, Points& points, const std::
     fill_inputs(material, whole.p, view, workspace, n, grid);
     if (material.water()) take_water_off(material, workspace.old_states.back(), n, view.stress_old);
     if (tangent && material.has_tangent()) std::copy_n(tangent, 36, whole.p.tangent);
+    whole.p.modulus = moduli[0];
+    whole.p.shear_modulus = moduli[1];
 
     gault_error error;
     gault_status status = call(material, whole.p, error);

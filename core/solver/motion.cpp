@@ -10,7 +10,8 @@ namespace gault::core {
 
 Motion::Motion(Grid& grid, std::vector<Material>& materials, std::vector<Points>& points, int threads)
     : grid_(grid), materials_(materials), points_(points),
-      kernels_(select_kernels({grid.degree(0), grid.degree(1), grid.axisymmetric()})), team_(threads) {
+      kernels_(select_kernels({grid.degree(0), grid.degree(1), grid.axisymmetric()})), team_(threads),
+      largest_modulus_(materials.size()) {
     plan();
 }
 
@@ -83,14 +84,21 @@ BatchView Motion::view(const Task& task) {
     return v;
 }
 
-UpdateFailure Motion::update_stress(const Task& task, const BatchView& view, Workspace& workspace,
-                                    const Moment& moment) {
+void Motion::update_stress(const Task& task, const BatchView& view, Workspace& workspace,
+                           const Moment& moment, Outcome& outcome) {
+    const Material& material = materials_[task.material];
     const Batch& batch = points_[task.material].layout().batches[task.batch];
+    double* modulus = workspace.column(Workspace::modulus);
+    double* shear = workspace.column(Workspace::modulus + 1);
     static std::mutex legacy; // models with global state are called one at a time
     std::unique_lock<std::mutex> alone(legacy, std::defer_lock);
-    if (materials_[task.material].one_at_a_time()) alone.lock();
-    return update_batch(materials_[task.material], points_[task.material],
-                        points_[task.material].columns().state, batch, view, workspace, moment, grid_view());
+    if (material.one_at_a_time()) alone.lock();
+    outcome.failure = update_batch(material, points_[task.material], points_[task.material].columns().state,
+                                   batch, view, workspace, moment, grid_view(), nullptr, {modulus, shear});
+    const double water = material.water() ? material.water()->stiffness : 0.0;
+    outcome.modulus = water;
+    for (int i = 0; i < batch.pages * page_slots; ++i)
+        outcome.modulus = std::max(outcome.modulus, water + modulus[i]);
 }
 
 void Motion::clear_patch(const Task& task, int components) {
@@ -149,9 +157,10 @@ void Motion::elastic_stress(const std::array<Column, 2>& moduli, const Task& tas
 
 void Motion::settle(const std::vector<Outcome>& outcomes) {
     largest_strain_ = 0.0;
+    largest_modulus_.assign(materials_.size(), 0.0);
     updates_ += static_cast<int64_t>(point_count());
     for (std::size_t t = 0; t < outcomes.size(); ++t) {
-        const auto& [strain, failure] = outcomes[t];
+        const auto& [strain, failure, modulus] = outcomes[t];
         const Task& task = tasks_[t];
         const Batch& batch = points_[task.material].layout().batches[task.batch];
         if (strain.bad >= 0) {
@@ -165,6 +174,7 @@ void Motion::settle(const std::vector<Outcome>& outcomes) {
         if (failure.status != GAULT_OK)
             throw PointError(sentence(task.material, failure), task.material, failure.call);
         largest_strain_ = std::max(largest_strain_, strain.largest);
+        largest_modulus_[task.material] = std::max(largest_modulus_[task.material], modulus);
     }
 }
 

@@ -109,6 +109,7 @@ class Motion {
 
     int64_t configuration() const { return configuration_; }  // counts the times that anything moved
     double largest_strain() const { return largest_strain_; } // component of the last step
+    double largest_modulus(int material) const { return largest_modulus_[material]; } // P-wave, last step, Pa
     int64_t updates() const { return updates_; }              // constitutive updates so far
     PhaseClock& clock() { return clock_; }
     const Grid& grid() const { return grid_; }
@@ -137,19 +138,20 @@ class Motion {
     BatchView view(const Task& task); // without workspace
     // Sums the patches into nodal fields, in a fixed order.
     void reduce(const std::vector<Column*>& fields);
-    UpdateFailure update_stress(const Task& task, const BatchView& view, Workspace& workspace,
-                                const Moment& moment);
+    struct Outcome { // of a batch's strain and stress update
+        StrainReport strain;
+        UpdateFailure failure;
+        double modulus = 0.0; // largest P-wave modulus, Pa
+    };
+    void update_stress(const Task& task, const BatchView& view, Workspace& workspace, const Moment& moment,
+                       Outcome& outcome);
     void clear_patch(const Task& task, int components);
     // Points the view's stress at workspace columns with the elastic stress rate of the strains in the view.
     void elastic_stress(const std::array<Column, 2>& moduli, const Task& task, double dt, BatchView& view,
                         Workspace& workspace);
     double probe_step(const VectorField& v) const; // short enough for strains to be linear in v
 
-    struct Outcome { // of a batch's strain and stress update
-        StrainReport strain;
-        UpdateFailure failure;
-    };
-    void settle(const std::vector<Outcome>& outcomes); // the first failure, or the largest strain
+    void settle(const std::vector<Outcome>& outcomes); // the first failure, or the largest of each
 
     static constexpr double strain_limit = 0.1; // of one step: beyond it the run is lost
 
@@ -167,6 +169,7 @@ class Motion {
     std::vector<std::array<double, 2>> viscosity_;
     PhaseClock clock_;
     double largest_strain_ = 0.0;
+    std::vector<double> largest_modulus_; // by material
     int64_t updates_ = 0, configuration_ = 0;
 };
 

@@ -187,7 +187,7 @@ void TotalMotion::sweep(const VectorField& velocity, const Moment& moment, bool 
             kernels_.total_strain(grid, v, strain_input(velocity, moment.dt, !material.finite_strain()));
         watch.lap(clock_.strain);
         if (update && outcome.strain.bad < 0)
-            outcome.failure = update_stress(task, v, workspaces_[thread], moment);
+            update_stress(task, v, workspaces_[thread], moment, outcome);
         watch.lap(clock_.material);
         clear_patch(task, 2);
         kernels_.total_force(grid, v);

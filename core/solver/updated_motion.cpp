@@ -174,7 +174,7 @@ void UpdatedMotion::deform(const VectorField& velocity, const Moment& moment) {
             for (int i = 0; i < v.pages * page_slots; ++i)
                 v.volume_ratio[i] = v.mass[i] > 0.0 ? v.measure[i] * material.density() / v.mass[i] : 1.0;
         watch.lap(clock_.strain);
-        if (outcome.strain.bad < 0) outcome.failure = update_stress(task, v, workspaces_[thread], moment);
+        if (outcome.strain.bad < 0) update_stress(task, v, workspaces_[thread], moment, outcome);
         watch.lap(clock_.material);
     });
     settle(outcomes_);

@@ -22,7 +22,7 @@ struct DruckerPrager { // f = sqrt(J2) + eta p - k, p the mean stress, tension p
     static constexpr std::array states{
         gault::scalar_state("plastic_strain", "1", "Deviatoric, accumulated.", 0, 0)};
 
-    double shear, bulk, eta, flow, k;
+    double shear, bulk, eta, flow, k, elastic_modulus, yielding_modulus;
     static double slope(double angle) { return 6 * std::sin(angle) / (std::sqrt(3) * (3 - std::sin(angle))); }
     void prepare() { // the cone through the compression edges of Mohr-Coulomb
         shear = young_modulus / (2 * (1 + poisson_ratio));
@@ -30,6 +30,11 @@ struct DruckerPrager { // f = sqrt(J2) + eta p - k, p the mean stress, tension p
         eta = slope(friction_angle);
         flow = slope(dilation_angle);
         k = eta * cohesion / std::tan(friction_angle);
+        elastic_modulus = bulk + 4 * shear / 3;
+        // The largest d s_i / d e_i of all deviators: above the elastic one where flow is not associated.
+        const double s_i = std::max(-2 / std::sqrt(3), -bulk * (eta + flow) / (2 * shear)); // over tau
+        const double lost = (shear * s_i + bulk * flow) * (shear * s_i + bulk * eta) / (shear + bulk * eta * flow);
+        yielding_modulus = elastic_modulus - std::min(lost, 0.0);
     }
 
     void update(gault::Point& p) const {
@@ -49,7 +54,7 @@ struct DruckerPrager { // f = sqrt(J2) + eta p - k, p the mean stress, tension p
         for (int i = 0; i < 6; ++i)
             p.stress[i] = new_tau / max(tau, 1e-300) * s[i] + (i < 3 ? new_mean : 0);
         p.set_state(0, p.state_old(0) + (tau - new_tau) / (std::sqrt(3) * shear));
-        p.modulus = bulk + 4 * shear / 3;
+        p.modulus = select(tau + 0.75 * (eta * mean - k) > 0, Pack(yielding_modulus), elastic_modulus);
         p.shear_modulus = shear;
     }
 };

@@ -17,6 +17,7 @@ struct Updated {
     gault::SymmetricTensor stress; // Pa
     Pack plastic_strain;           // increment
     Pack snap_back;                // see Softened
+    Mask mobilised;
 };
 
 GAULT_INLINE Pack snap_back(const Returned&) {
@@ -32,8 +33,8 @@ GAULT_INLINE Updated update_in_plane(const Strength& k, const gault::SymmetricTe
     const gault::InPlaneSpectral p = gault::in_plane_spectral(trial);
     const Pack zz = trial[2];
     const Pack s1 = max(p.high, zz), s2 = max(p.low, min(p.high, zz)), s3 = min(p.low, zz);
-    const Mask plastic = yields(k, s1, s3);
-    if (!any(plastic)) return {trial, 0.0, 0.0};
+    const Mask plastic = yields(k, s1, s3), mobilised = is_mobilised(k, s1, s3);
+    if (!any(plastic)) return {trial, 0.0, 0.0, mobilised};
 
     const Pack inverse = 1.0 / max(p.radius, std::numeric_limits<double>::min());
     const auto r = return_to_surface(k, s1, s2, s3);
@@ -46,7 +47,8 @@ GAULT_INLINE Updated update_in_plane(const Strength& k, const gault::SymmetricTe
     return {{select(plastic, mean + half, trial[0]), select(plastic, mean - half, trial[1]),
              select(plastic, between, zz), select(plastic, trial[3] * scale, trial[3]), trial[4], trial[5]},
             r.plastic_strain,
-            snap_back(r)};
+            snap_back(r),
+            mobilised};
 }
 
 template <class Strength>
@@ -54,8 +56,8 @@ __attribute__((noinline)) Updated update_in_space(const Strength& k, const gault
     const gault::Spectral s = gault::spectral(trial);
     const auto& [a, b, c] = s.value;
     const Pack s1 = max(max(a, b), c), s3 = min(min(a, b), c), s2 = max(min(a, b), min(max(a, b), c));
-    const Mask plastic = yields(k, s1, s3);
-    if (!any(plastic)) return {trial, 0.0, 0.0};
+    const Mask plastic = yields(k, s1, s3), mobilised = is_mobilised(k, s1, s3);
+    if (!any(plastic)) return {trial, 0.0, 0.0, mobilised};
 
     const auto r = return_to_surface(k, s1, s2, s3);
     gault::Triple value;
@@ -67,6 +69,7 @@ __attribute__((noinline)) Updated update_in_space(const Strength& k, const gault
         u.stress[i] = select(plastic, stress[i], trial[i]);
     u.plastic_strain = r.plastic_strain;
     u.snap_back = snap_back(r);
+    u.mobilised = mobilised;
     return u;
 }
 
@@ -87,6 +90,7 @@ GAULT_INLINE Updated update_stress(const Strength& k, const gault::SymmetricTens
             u.stress[i] = select(turned, v.stress[i], u.stress[i]);
         u.plastic_strain = select(turned, v.plastic_strain, u.plastic_strain);
         u.snap_back = select(turned, v.snap_back, u.snap_back);
+        u.mobilised = (turned & v.mobilised) | (!turned & u.mobilised);
     }
     return u;
 }
@@ -99,10 +103,10 @@ __attribute__((noinline)) Tangent tangent_in_space(const Strength& k, double lam
 
 template <class Strength>
 GAULT_INLINE void finish(const Updated& u, const Strength& k, double lame, double twice_shear,
-                         const gault::SymmetricTensor& trial, gault::Point& p) {
+                         double yielding_modulus, const gault::SymmetricTensor& trial, gault::Point& p) {
     p.stress = u.stress;
     p.set_state(plastic_strain, p.state_old(plastic_strain) + u.plastic_strain);
-    p.modulus = lame + twice_shear;
+    p.modulus = select(u.mobilised, Pack(yielding_modulus), lame + twice_shear);
     p.shear_modulus = 0.5 * twice_shear;
     if (!p.wants_tangent()) return;
     const Strength constants = k;
@@ -113,7 +117,7 @@ GAULT_INLINE void finish(const Updated& u, const Strength& k, double lame, doubl
             p.set_tangent(row, column, t[row][column]);
 }
 
-__attribute__((noinline)) void update_softening(const Softening& soil, gault::Point& p) {
+__attribute__((noinline)) void update_softening(const Softening& soil, double yielding_modulus, gault::Point& p) {
     const SofteningSurface k = softening_surface(soil, p.state_old(plastic_strain), p.input(0));
     const double lame = k.start.lame, twice_shear = k.start.twice_shear;
     const gault::SymmetricTensor trial = gault::add_elastic(p.stress_old, p.strain, lame, twice_shear);
@@ -122,7 +126,7 @@ __attribute__((noinline)) void update_softening(const Softening& soil, gault::Po
     p.fail(u.snap_back == 2.0,
            "the soil snaps back: its strength falls faster with strain than stress can; take "
            "smaller cells (and a regularisation_length), or a longer softening_strain");
-    finish(u, k, lame, twice_shear, trial, p);
+    finish(u, k, lame, twice_shear, yielding_modulus, trial, p);
 }
 
 } // namespace
@@ -142,6 +146,7 @@ struct Model {
     PerfectSurface perfect; // of the peak
     Softening softening;
     bool softens;
+    double yielding_modulus; // Pa; the largest of all strengths that softening passes
 
     static constexpr std::array parameters{
         gault::parameter<&Model::young_modulus>("young_modulus", "E", "Pa", "Young's modulus.").above(0),
@@ -198,6 +203,7 @@ struct Model {
         check_dilation(soil, "dilation_angle");
         perfect.surface = surface(soil);
         perfect.jacobians = jacobians(perfect.surface);
+        yielding_modulus = mohr_coulomb::yielding_modulus(perfect.surface, perfect.jacobians);
         softens = ultimate_cohesion || ultimate_friction_angle || ultimate_dilation_angle;
         if (softens || softening_strain || regularisation_length) prepare_softening(soil);
     }
@@ -206,13 +212,13 @@ struct Model {
         if (softens) { // with copies: whatever a call may see cannot stay in registers
             const Softening constants = softening;
             gault::Point point = p;
-            update_softening(constants, point);
+            update_softening(constants, yielding_modulus, point);
             p = point;
             return;
         }
         const double lame = perfect.surface.lame, twice_shear = perfect.surface.twice_shear;
         const gault::SymmetricTensor trial = gault::add_elastic(p.stress_old, p.strain, lame, twice_shear);
-        finish(update_stress(perfect, trial), perfect, lame, twice_shear, trial, p);
+        finish(update_stress(perfect, trial), perfect, lame, twice_shear, yielding_modulus, trial, p);
     }
 
     // The initial stress must lie within the surface, up to what rounding and a person's digits leave.
@@ -264,6 +270,9 @@ struct Model {
             soil.friction_angle += share * (phi - friction_angle);
             soil.dilation_angle += share * (psi - dilation_angle);
             check_dilation(soil, "ultimate_dilation_angle");
+            const Surface softer = surface(soil);
+            yielding_modulus =
+                std::fmax(yielding_modulus, mohr_coulomb::yielding_modulus(softer, jacobians(softer)));
         }
         const auto angle = [](double from, double to) {
             return Softening::Angle{std::sin(from), std::cos(from), to - from};

@@ -331,6 +331,27 @@ TEST(MohrCoulomb, SaysItsElasticModuli) {
     EXPECT_NEAR(b.shear_modulus, 40e6, 1e-6);
 }
 
+// Where it flows, the fastest wave along a principal direction, by differences of the very update: on the plane and both edges.
+TEST(MohrCoulomb, SaysTheModulusOfSoilThatFlows) {
+    const Parameters p{100e6, 0.4, 1e3, 40, -2, {}, {}};
+    const Model model(p);
+    double fastest = 0, said = 0;
+    const Tensor isotropic = diagonal(-100e3, -100e3, -100e3);
+    for (const Tensor& shear :
+         {diagonal(1e-3, 1e-3, -2e-3), diagonal(1e-3, 0, -1e-3), diagonal(1.4e-3, -7e-4, -7e-4)}) {
+        for (int i = 0; i < 3; ++i) {
+            Tensor more = shear;
+            more[i] += 1e-7;
+            Batch b{{isotropic, isotropic}, {shear, more}, {}, {}, {}};
+            model.update(b);
+            fastest = std::max(fastest, (b.stress[1][i] - b.stress[0][i]) / 1e-7);
+            said = b.modulus;
+        }
+    }
+    EXPECT_NEAR(fastest / (p.lame() + 2 * p.G()), 1.88179587, 1e-6); // from a program of its own
+    EXPECT_NEAR(said, fastest, 1e-5 * fastest);
+}
+
 TEST(MohrCoulomb, RefusesASoilWithoutStrength) {
     try {
         Model model({100e6, 0.25, 0, 0, 0, {}});

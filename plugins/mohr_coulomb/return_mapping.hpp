@@ -129,6 +129,9 @@ struct PerfectSurface {
     Surface surface;
     Jacobians jacobians;
 };
+GAULT_INLINE Mask is_mobilised(const PerfectSurface& k, Pack s1, Pack s3) {
+    return is_mobilised(k.surface.kappa, k.surface.y, s1, s3);
+}
 GAULT_INLINE Mask yields(const PerfectSurface& k, Pack s1, Pack s3) {
     return yields(k.surface, s1, s3);
 }

@@ -88,6 +88,10 @@ struct Softened : Returned {
     Pack snap_back;               // 0: none, 1: perhaps, the trial stress being far outside, 2: for certain
 };
 
+GAULT_INLINE Mask is_mobilised(const SofteningSurface& k, Pack s1, Pack s3) {
+    return is_mobilised(k.start.kappa.value, k.start.y.value, s1, s3);
+}
+
 GAULT_INLINE Mask yields(const SofteningSurface& k, Pack s1, Pack s3) {
     const Mask shear = s1 - k.start.kappa.value * s3 > k.start.y.value;
     return shear | (s1 > k.start.tension.value);

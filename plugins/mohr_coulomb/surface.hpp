@@ -121,6 +121,12 @@ GAULT_INLINE void set_returns(SurfaceOf<Number>& k) {
 
 } // namespace detail
 
+// Three quarters of the strength and more, seen from the isotropic stress (s1 + s3)/2.
+GAULT_INLINE Mask is_mobilised(Pack kappa, Pack y, Pack s1, Pack s3) {
+    const Pack lever = 0.125 * (1.0 - kappa);
+    return (1.0 - lever) * s1 - (kappa + lever) * s3 > 0.75 * y;
+}
+
 // `value` makes a Real of a Number of the surface.
 template <class Real, class Number, class Value>
 JacobiansOf<Real> jacobians(const SurfaceOf<Number>& k, Value value) {
@@ -167,6 +173,18 @@ inline Surface surface(const Soil& m) {
 
 inline Jacobians jacobians(const Surface& k) {
     return jacobians<double>(k, [](double x) { return x; });
+}
+
+// P-wave modulus of soil that yields, Pa: the largest d s_i / d e_i of the shear surface. Above lambda + 2G
+// where flow is not associated, without bound towards the limit of contraction.
+inline double yielding_modulus(const Surface& k, const Jacobians& j) {
+    double most = k.lame + k.twice_shear;
+    for (const Region region : {plane, compression_edge, extension_edge})
+        for (int i = 0; i < 3; ++i) {
+            const double* row = &j.of[region][3 * i];
+            most = std::fmax(most, k.lame * (row[0] + row[1] + row[2]) + k.twice_shear * row[i]);
+        }
+    return most;
 }
 
 } // namespace GAULT_ISA

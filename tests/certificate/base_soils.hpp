@@ -40,7 +40,8 @@ inline gault::Pack norm(const gault::Components& t) {
 
 // q = strength (slope p + cohesion), with less dilation than friction; back to its tip where the cone ends.
 struct Cone : Elastic {
-    static constexpr double slope = 1.2, dilation = 0.3, cohesion = 5e3;
+    static constexpr double slope = 1.2, cohesion = 5e3;
+    double dilation = 0.3;
     static constexpr bool has_tangent = true;
     using Tangent = std::array<gault::Components, 6>; // of every row, its columns
 

@@ -124,6 +124,7 @@ const Wrong wrongs[] = {
     {"gives_work", {"elastic_cycles"}, "work at most"},
     {"leaves_its_bounds", {"random_walk"}, "state 'damage' is 1", {"random_walk"}},
     {"too_soft", {"modulus"}, "needs 1.1111 in"},
+    {"too_soft_in_flow", {"modulus"}, "report as much there", {"modulus"}},
     {"refuses_to_start",
      {"speed", "batches", "cavity"},
      "the initial stress is none of tension",

@@ -358,6 +358,15 @@ struct TooSoft : Elastic {
     }
 };
 
+struct TooSoftInFlow : Cone { // which is far from associated
+    static constexpr const char* name = "too_soft_in_flow";
+    void prepare() {
+        poisson_ratio = 0.45;
+        dilation = 0.0;
+        Elastic::prepare();
+    }
+};
+
 // ---- all that need a start ----
 
 struct RefusesToStart : Elastic {
@@ -382,4 +391,4 @@ GAULT_MODULE("wrong_soils", "1.0.0", "The Gault authors", "MIT", gault::Material
              gault::Material<WrongTangent<2>>, gault::Material<WrongTangent<3>>,
              gault::Material<HardensByStep>, gault::Material<LooksAtXx>, gault::Material<UndeclaredVector>,
              gault::Material<NeverSpins>, gault::Material<GivesWork>, gault::Material<LeavesItsBounds>,
-             gault::Material<TooSoft>, gault::Material<RefusesToStart>)
+             gault::Material<TooSoft>, gault::Material<TooSoftInFlow>, gault::Material<RefusesToStart>)

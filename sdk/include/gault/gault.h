@@ -213,8 +213,9 @@ typedef struct gault_points { /* [grows] */
     const double *const *state_old;           /* one array a component: declared states one after another; rotated */
     double *const *state;                     /* out: every component is written, changed or not */
     const double *const *input;               /* host fields that the material asked for, in its order */
-    double *modulus;       /* out, if not NULL: an upper bound of the P-wave modulus, Pa (sets the time step) */
-    double *shear_modulus; /* out, if not NULL: the elastic G, Pa (far fields, dashpots) */
+    double *modulus;       /* out, if not NULL: an upper bound of the P-wave modulus, Pa: sets the time step. Of waves in
+                              soil that yields too: flow far from associated makes some that are faster than elastic ones */
+    double *shear_modulus; /* out, NULL where modulus is: the elastic G, Pa (far fields, dashpots) */
     double *tangent[36];   /* out, if tangent[0]: d stress / d strain of this update, row-major over xx yy zz xy yz zx.
                               Column xy: the change for a unit TENSOR strain xy (xy and yx together). Unsymmetric in
                               general. GAULT_FINITE_STRAIN: d stress / d e of the Cauchy stress returned where F_new

@@ -65,7 +65,7 @@ class Point {
     Components strain;     // increment of the step (start: 0)
     Components stress_old; // Pa
     Components stress;     // out; on entry stress_old
-    Pack modulus;          // out: an upper bound of the P-wave modulus, Pa; required
+    Pack modulus;          // out: an upper bound of the P-wave modulus, in soil that yields too, Pa; required
     Pack shear_modulus;    // out: elastic G, Pa; required
 
     double time() const { return batch_->time; } // s, at the end of the step
