@@ -96,9 +96,11 @@ void Motion::update_stress(const Task& task, const BatchView& view, Workspace& w
     outcome.failure = update_batch(material, points_[task.material], points_[task.material].columns().state,
                                    batch, view, workspace, moment, grid_view(), nullptr, {modulus, shear});
     const double water = material.water() ? material.water()->stiffness : 0.0;
-    outcome.modulus = water;
-    for (int i = 0; i < batch.pages * page_slots; ++i)
-        outcome.modulus = std::max(outcome.modulus, water + modulus[i]);
+    std::array<double, page_slots> most{}; // slot by slot of a page: several at once
+    for (int page = 0; page < batch.pages; ++page, modulus += page_slots)
+        for (std::size_t k = 0; k < page_slots; ++k)
+            most[k] = most[k] < modulus[k] ? modulus[k] : most[k];
+    outcome.modulus = water + *std::max_element(most.begin(), most.end());
 }
 
 void Motion::clear_patch(const Task& task, int components) {
