@@ -33,6 +33,7 @@ Action declare_frontier(CLI::App& options);
 Action declare_element(CLI::App& options);
 Action declare_certify(CLI::App& options);
 Action declare_new(CLI::App& options);
+Action declare_plot(CLI::App& options);
 
 // KEY=VALUE of --set. InputError.
 std::vector<core::Override> overrides(const std::vector<std::string>& set);

@@ -9,4 +9,4 @@ cmake --preset release -DGAULT_BUILD_TESTS=OFF >/dev/null
 cmake --build --preset release
 echo "Run: configs/paper/fahey.yaml"
 build/release/bin/gault run configs/paper/fahey.yaml -o out/fahey --force
-/usr/bin/python3 apps/plot.py out/fahey -o out/fahey.png --measured 655
+build/release/bin/gault plot out/fahey -o out/fahey.png --measured 655

@@ -23,6 +23,7 @@ using gault::core::suggestion;
 
 constexpr std::array commands{
     Command{"run", "Runs a scene and writes its results", declare_run},
+    Command{"plot", "Draws the results of a run", declare_plot},
     Command{"check", "Does everything that `run` does before its first step", declare_check},
     Command{"plan", "Says what is chosen for a scene, why, and what the run will cost", declare_plan},
     Command{"frontier", "Measures error against time over families of settings", declare_frontier},

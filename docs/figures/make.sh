@@ -7,7 +7,7 @@ export GAULT="${GAULT:-$PWD/build/release/bin/gault}"
 results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 "$GAULT" run configs/paper/fahey.yaml -o "$results/fahey"
-/usr/bin/python3 apps/plot.py "$results/fahey" -o docs/figures/fahey.png --measured 655
+"$GAULT" plot "$results/fahey" -o docs/figures/fahey.png --measured 655
 "$GAULT" element configs/element/sand_cyclic_shear.yaml -o "$results/element"
 cp "$results/element/element.png" docs/figures/element.png
 /usr/bin/python3 docs/figures/convergence.py
