@@ -101,7 +101,7 @@ void read_triaxial(const Fields& fields, ElementStage& stage) {
     if (fields.find("radial_stress")) radial = pressure(fields, "radial_stress");
     stage.constraints = undrained ? with_still_shear(axial, volume(0.0), difference(xx, zz))
                                   : with_still_shear(axial, stress(xx, radial), stress(zz, radial));
-    if (undrained) stage.undrained = xx;
+    if (undrained) stage.undrained = {1.0, 0.0, 0.0};
 }
 
 void read_oedometer(const Fields& fields, ElementStage& stage) {
@@ -118,7 +118,7 @@ void read_plane_strain(const Fields& fields, ElementStage& stage) {
     const Constraint axial = drive == "axial_strain" ? strain(yy, shortening(fields, drive))
                                                      : difference(yy, xx, pressure(fields, drive));
     stage.constraints = with_still_shear(axial, undrained ? volume(0.0) : stress(xx), strain(zz, 0.0));
-    if (undrained) stage.undrained = xx;
+    if (undrained) stage.undrained = {1.0, 0.0, 0.0};
 }
 
 // Of the plane xy; engineering shear strain. No strain along x and z; along y the stress stays, or nothing moves.
@@ -129,18 +129,22 @@ void read_simple_shear(const Fields& fields, ElementStage& stage) {
         with_still_shear(strain(xx, 0.0), undrained ? strain(yy, 0.0) : stress(yy), strain(zz, 0.0));
     stage.constraints[xy] = drive == "shear_strain" ? strain(xy, 0.5 * shortening(fields, drive))
                                                     : stress(xy, pressure(fields, drive));
-    if (undrained) stage.undrained = yy;
+    if (undrained) stage.undrained = {0.0, 1.0, 0.0};
 }
 
-// Principal stresses along y (major), z, x (minor): z - x = b (y - x).
+// Principal stresses along y (major), z, x (minor): z - x = b (y - x). Undrained, it is a total stress that is held.
 void read_true_triaxial(const Fields& fields, ElementStage& stage) {
     const double b = fields.quantity("b", "1", {.min = 0.0, .max = 1.0});
     const Node* node = fields.find("hold");
     const bool minor = node && read_choice(*node, fields.path("hold"), {"mean_stress", "minor_stress"}) == 1;
     Constraint intermediate{{}, {b - 1.0, -b, 1.0, 0.0, 0.0, 0.0}, 0.0};
-    const Constraint held =
-        minor ? stress(xx) : Constraint{{}, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0}, {}};
-    stage.constraints = with_still_shear(strain(yy, shortening(fields, "axial_strain")), intermediate, held);
+    const std::array<double, 3> held =
+        minor ? std::array{1.0, 0.0, 0.0} : std::array{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+    const bool undrained = is_undrained(fields);
+    stage.constraints = with_still_shear(
+        strain(yy, shortening(fields, "axial_strain")), intermediate,
+        undrained ? volume(0.0) : Constraint{{}, {held[0], held[1], held[2], 0.0, 0.0, 0.0}, {}});
+    if (undrained) stage.undrained = held;
 }
 
 // {strain: {yy: 5 %}, stress: {xx: 100 kPa, zz: held}}; shear strains that are not named stay.
@@ -186,7 +190,7 @@ const std::vector<Kind> kinds = {
     {"oedometer", {"axial_strain", "axial_stress"}, read_oedometer},
     {"plane_strain", {"axial_strain", "deviator_stress", "drainage"}, read_plane_strain},
     {"simple_shear", {"shear_strain", "shear_stress", "drainage"}, read_simple_shear},
-    {"true_triaxial", {"axial_strain", "b", "hold"}, read_true_triaxial},
+    {"true_triaxial", {"axial_strain", "b", "hold", "drainage"}, read_true_triaxial},
     {"mixed", {"strain", "stress"}, read_mixed},
 };
 

@@ -22,8 +22,9 @@ struct ElementStage {
     std::array<Constraint, 6> constraints;
     int steps = 100;
     double duration = 1.0; // s
-    // No water leaves or enters: the component whose total stress stays, from which the pore pressure follows.
-    std::optional<int> undrained;
+    // No water leaves or enters: the sum of normal stresses, with weights of sum 1, that stays as total stress. The
+    // pore pressure follows from it.
+    std::optional<std::array<double, 3>> undrained;
 };
 
 // One call of the model as a run made it, SI, tension positive, tensor shear.

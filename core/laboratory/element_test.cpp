@@ -97,8 +97,9 @@ void ElementRun::go(const std::function<void(const std::vector<double>&)>& row) 
         const Tensor begin = point_.stress();
         const auto arrive = [&] {
             if (stage.undrained) { // total stress stays: what the skeleton sheds, the water takes
-                const auto k = static_cast<std::size_t>(*stage.undrained);
-                pore_pressure_ = pressure + point_.stress()[k] - begin[k];
+                pore_pressure_ = pressure;
+                for (std::size_t k = 0; k < 3; ++k)
+                    pore_pressure_ += (*stage.undrained)[k] * (point_.stress()[k] - begin[k]);
                 undrained_strength_ =
                     std::max(undrained_strength_.value_or(0.0), largest_shear_stress(point_.stress()));
             }

@@ -141,6 +141,23 @@ TEST(LinearElasticity, HasSkemptonsPorePressureWhereNoWaterLeaves) {
     expect_close(*shear.undrained_strength, 30e3);
 }
 
+// With e along y and no volume, z - x = b (y - x) makes the strain along x -e (1 + b)/(2 - b).
+TEST(LinearElasticity, HoldsATotalStressInATrueTriaxialTestWithoutDrainage) {
+    for (const double b : {0.0, 0.5, 1.0}) {
+        const std::string given = "true_triaxial: {axial_strain: 1 %, drainage: undrained, b: " + std::to_string(b);
+        const double lateral = 2 * G * 0.01 * (1 + b) / (2 - b);
+        const Table mean = elastic(given + "}");
+        expect_close(mean.end("pore_pressure"), 0.0, p0);
+        expect_close(mean.end("stress_xx"), p0 - lateral);
+        expect_close(mean.end("volumetric_strain"), 0.0, 0.01);
+        const Table minor = elastic(given + ", hold: minor_stress}");
+        expect_close(minor.end("stress_xx"), p0 - lateral); // effective
+        expect_close(minor.end("pore_pressure"), lateral);
+        expect_close(minor.end("stress_zz") - minor.end("stress_xx"),
+                     b * (minor.end("stress_yy") - minor.end("stress_xx")), p0);
+    }
+}
+
 TEST(LinearElasticity, KeepsThePorePressureOfAStageWithoutDrainageInADrainedOne) {
     const Table t =
         elastic("triaxial: {axial_strain: 1 %, drainage: undrained}, triaxial: {axial_strain: 1 %}");
