@@ -116,6 +116,7 @@ void read_initial(const Source& source, Scene& scene) {
     const Node& stress = initial.require("stress", "{isotropic: 90 kPa} or {vertical: 100 kPa, k0: 0.5}");
     const Fields fields(stress, "initial.stress", {"isotropic", "vertical", "k0", "depth"});
     scene.initial_stress = read_stress(fields, scene.gravity[1] != 0.0);
+    scene.initial_stress.where = fields.where();
 }
 
 void read_boundaries(const Source& source, Scene& scene) {

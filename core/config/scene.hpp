@@ -79,6 +79,7 @@ struct InitialStress {
     double k0 = 1.0;
     double depth = 0.0;   // m, of the top surface below the ground
     bool gravity = false; // the stress follows the weight of the soil
+    Location where;
 };
 
 struct Choice {                     // of a value that the scene left open

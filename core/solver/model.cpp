@@ -182,7 +182,11 @@ Model build_model(const Scene& scene) {
                 s.columns.deformation[k].assign(n, k == 0 || k > 2 ? 1.0 : 0.0);
         model.points.emplace_back(std::move(s.columns), s.cell, std::move(s.identity),
                                   LayoutRequest{columns, grid.axis(1).cells(), grid.degree(0), updated});
-        start_material(model.materials[m], model.points[m], view_of(grid));
+        try {
+            start_material(model.materials[m], model.points[m], view_of(grid));
+        } catch (const RunError& error) {
+            throw InputError(scene.initial_stress.where, error.what());
+        }
     }
     return model;
 }
