@@ -36,6 +36,11 @@ constexpr std::array commands{
     Command{"bench", "Measures speed and memory with the code that `run` runs", declare_bench},
 };
 
+std::string documents() {
+    const std::filesystem::path installed = installation() / "share/doc/gault/docs/index.md";
+    return std::filesystem::exists(installed) ? installed.string() : "docs/index.md of the sources";
+}
+
 bool is_option(const std::string& word) {
     return word.size() > 1 && word[0] == '-';
 }
@@ -99,7 +104,9 @@ int dispatch(int count, char** words) {
         "  gault run configs/paper/fahey.yaml -o out/fahey\n"
         "  gault check configs/paper/fahey.yaml\n"
         "  gault describe mohr_coulomb\n"
-        "`gault COMMAND --help` lists the options of a command; docs/index.md of the sources says more.\n\n"
+        "`gault COMMAND --help` lists the options of a command; " +
+        documents() +
+        " says more.\n\n"
         "Exit status: 0 done, 2 wrong scene or command line, 3 the run failed, 130 interrupted.");
     std::string level = "info";
     app.add_option("--log-level", level, "debug, info, warn or error")

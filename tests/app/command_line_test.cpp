@@ -65,7 +65,7 @@ TEST_F(CommandLine, VersionIsOneLine) {
 
 TEST_F(CommandLine, WithoutACommandListsThem) {
     EXPECT_TRUE(refusal(gault({})).starts_with(
-        "a command is required; allowed: run, check, plan, frontier, element, certify, new, list, describe"));
+        "a command is required; allowed: run, plot, check, plan, frontier, element, certify, new, list, describe"));
 }
 
 TEST_F(CommandLine, MistypedCommandGetsTheNearestOne) {

@@ -11,6 +11,8 @@ must(dpkg-deb -x ${package} ${WORK}/root)
 set(usr ${WORK}/root/usr)
 set(gault ${usr}/bin/gault)
 
+must(/usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/links_test.py ${usr}/share/doc/gault)
+
 must(${gault} list)
 must_print("${usr}/lib/gault/plugins/")
 must(${gault} describe mohr_coulomb)
