@@ -162,8 +162,9 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
             const Answer one = evaluate(start, du, moment, limit, m, batch, internal, stiffness);
             all.largest_strain = std::max(all.largest_strain, one.largest_strain);
             if (!one.found) {
-                all.fraction = one.fraction;
-                all.reason = one.reason;
+                const double strain = all.largest_strain;
+                all = one;
+                all.largest_strain = strain;
                 return all;
             }
         }
@@ -244,7 +245,8 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
     if (failure.status != GAULT_OK) {
         answer.fraction = failure.fraction;
         answer.reason = motion_.sentence(m, failure);
-        if (failure.status != GAULT_RETRY) throw PointError(answer.reason, m, failure.call);
+        if (failure.status != GAULT_RETRY)
+            answer.failed = std::make_shared<PointError>(answer.reason, m, failure.call);
         return answer;
     }
     if (const auto slot = not_finite(points, first, n)) {

@@ -5,6 +5,7 @@
 #include "core/solver/motion.hpp"
 #include "core/solver/stiffness.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ class Equilibrium {
         double largest_strain = 0.0; // component of the step; also where nothing was found because of it
         double fraction = 0.5;       // of the step that is worth trying where nothing was found
         std::string reason;          // why not; empty: the strain is too large
+        std::shared_ptr<const PointError> failed; // a soil has no result for what was tried
     };
     // New stresses and states of all points for nodes displaced by `du` since `start`; `internal`, the forces
     // on the nodes, N; `stiffness` += -d(internal)/d(du). Stops early where a strain component passes

@@ -94,6 +94,7 @@ bool QuasiStaticSolver::shorten(double fraction, double dt) {
     restore();
     allowed_ = fraction * dt;
     usual_ = 0.0;
+    if (allowed_ < least_ && failed_) throw PointError(*failed_);
     if (allowed_ < least_)
         throw RunError(
             fmt::format("no equilibrium was found, however short the step{}; the load may exceed what the "
@@ -126,6 +127,7 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::evaluate(const Moment& moment) {
     const Equilibrium::Answer answer =
         equilibrium_.evaluate(*start_, du_, moment, limit, internal_, stiffness_);
     largest_strain_ = answer.largest_strain;
+    failed_ = answer.failed;
     if (!answer.found) {
         fraction_ = answer.fraction;
         reason_ = answer.reason;

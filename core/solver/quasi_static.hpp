@@ -56,6 +56,7 @@ class QuasiStaticSolver final : public Solver {
     double usual_ = 0.0;                  // length that was allowed before an event cut a step short, s
     double fraction_ = 0.5;               // of the step, after one that failed
     std::string reason_;                  // why it failed
+    std::shared_ptr<const PointError> failed_; // because a soil had no result
     int64_t iterations_ = 0;
     std::vector<double> residuals_;
 };

@@ -474,5 +474,45 @@ TEST(QuasiStatic, SaysSoWhenNoEquilibriumExists) {
     EXPECT_THROW(press_on(), RunError);
 }
 
+// A soil without a result for a strain of more than `most` in one step; the block is pressed together by 1 %.
+double time_reached(double most) {
+    TestMaterial soil(lame, shear);
+    soil.update = [&](gault_points& p, gault_error& error) {
+        for (int64_t i = 0; i < p.count; ++i)
+            if (std::abs(p.strain[1][i]) > most) {
+                error.point = i;
+                std::snprintf(error.text, sizeof error.text, "too far");
+                return gault_status(GAULT_FAILED);
+            }
+        return soil.elastic(p);
+    };
+    TestBoundary wall;
+    wall.constrain = [](gault_nodes& nodes) {
+        for (int64_t i = 0; i < nodes.count; ++i) {
+            nodes.fixed[1][i] = 1.0;
+            nodes.velocity[1][i] = nodes.normal[1][i] > 0.0 ? -1.0 : 0.0;
+        }
+    };
+    SmallScene s{shape({Symmetry::plane_strain, Frame::total, Basis::linear, ""})};
+    s.add(soil, density);
+    s.add(wall, {2, 3});
+    Model model = build_model(s.scene);
+    QuasiStaticSolver solver(s.scene, model, 1);
+    while (solver.time() < 0.01 * (1.0 - 1e-9))
+        solver.step(std::min(solver.allowed_step(), 0.01 - solver.time()));
+    return solver.time();
+}
+
+TEST(QuasiStatic, GoesOnInShorterStepsWhereASoilHasNoResultForATrial) {
+    EXPECT_NEAR(time_reached(1e-3), 0.01, 1e-12);
+    try {
+        time_reached(0.0);
+        FAIL();
+    } catch (const PointError& error) {
+        EXPECT_NE(std::string(error.what()).find("too far"), std::string::npos) << error.what();
+        EXPECT_NE(error.call(), nullptr);
+    }
+}
+
 } // namespace
 } // namespace gault::core::test
