@@ -92,6 +92,7 @@ const std::vector<Check>& all_checks() {
     using namespace checks;
     static const std::vector<Check> all = {
         {"declaration", "every unit is one, and every parameter and state has a sentence", declaration},
+        {"effect", "what is declared takes part", effect},
         {"bounds", "values at the bounds are taken, or refused by name", bounds},
         {"batches", "split, shuffled and padded batches give the same bits", batches},
         {"threads", "concurrent calls give the same bits", threads},

@@ -6,6 +6,7 @@ namespace gault::core::checks {
 
 // contract.cpp: the binary contract
 Finding declaration(const Subject& subject);
+Finding effect(const Subject& subject);
 Finding bounds(const Subject& subject);
 Finding batches(const Subject& subject);
 Finding threads(const Subject& subject);

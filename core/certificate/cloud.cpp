@@ -114,6 +114,37 @@ std::optional<PointBatch> answered_one(const PointBatch& cloud, std::size_t poin
     return std::nullopt;
 }
 
+bool is_elastic(const PointBatch& call) {
+    PointBatch there = call;
+    const Tensor start = call.get(call.stress_old, 0);
+    const auto change_after = [&](double factor) -> std::optional<Tensor> {
+        there.set_strain(0, scaled(call.get(call.strain, 0), factor));
+        there.pad();
+        if (there.update(quick).status != GAULT_OK) return std::nullopt;
+        there.accept();
+        Tensor change = there.get(there.stress, 0);
+        for (std::size_t k = 0; k < 6; ++k)
+            change[k] -= start[k];
+        return change;
+    };
+    const std::optional<Tensor> change = change_after(1.5), rest = change ? change_after(-1.5) : change;
+    return rest && largest(*rest) <= 1e-4 * largest(*change) + 1e-13 * largest(start);
+}
+
+std::optional<double> strain_to_yield(const Material& material, const Tensor& stress) {
+    constexpr std::size_t count = 60;
+    for (double strain = usual_strain; strain <= 0.064; strain *= 2.0) {
+        Random random(3);
+        const PointBatch cloud = scatter(material, stress, count, 12, strain, random);
+        std::size_t yielding = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            if (const auto one = answered_one(cloud, i, 1e-8, 1e-7, random, quick))
+                yielding += is_elastic(*one) ? 0 : 1;
+        if (10 * yielding >= count) return strain;
+    }
+    return std::nullopt;
+}
+
 namespace {
 
 // The call once more with one component of the strain shifted; a deformation gradient F_new becomes exp(e) F_new.

@@ -29,6 +29,16 @@ PointBatch scatter(const Material& material, const Tensor& stress, std::size_t c
 std::optional<PointBatch> answered_one(const PointBatch& cloud, std::size_t point, double low, double high,
                                        Random& random, double dt = 1.0);
 
+constexpr double quick = 1e-6; // s: too short for soil to creep
+
+// Half as much again of the increment of the call of one point, and all of it taken back: is it where it was?
+bool is_elastic(const PointBatch& one);
+
+// For scatter(): the largest strain of a step that lets a tenth of the points yield, at least the usual one. Nothing:
+// 6.4 % are not enough.
+constexpr double usual_strain = 2e-3;
+std::optional<double> strain_to_yield(const Material& material, const Tensor& stress);
+
 // d stress / d strain of the call in hand, of one point, by differences of strains shifted to both sides; columns as in
 // gault.h. Of three shifts that at which the sides agree best: rounding spoils the shorter, curvature the longer. Nothing:
 // a shifted strain is not answered.

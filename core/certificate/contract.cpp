@@ -86,7 +86,7 @@ std::string size_of_difference(const std::vector<double>& a, const std::vector<d
 // A batch of points, each with an increment that the model answers by itself, and the call of all of them made.
 PointBatch answered(const Material& material, const Tensor& stress, std::size_t count) {
     Random random(1);
-    const PointBatch cloud = scatter(material, stress, count, 12, 2e-3, random);
+    const PointBatch cloud = scatter(material, stress, count, 12, strain_to_yield(material, stress).value_or(usual_strain), random);
     PointBatch batch = cloud;
     for (std::size_t i = 0; i < count; ++i) {
         const std::optional<PointBatch> one = answered_one(cloud, i, 1e-7, 3e-3, random);
@@ -154,6 +154,38 @@ MaterialUse with_value(const MaterialUse& use, std::size_t parameter, const gaul
     return {use.name, {use.model.component, std::move(parameters)}, use.density, {}, use.yaml};
 }
 
+// Where a path of random strains leads: stresses and states of all points, one after another.
+std::vector<double> end_of_path(const Material& material, const Tensor& stress, double strain) {
+    Random random(4);
+    const PointBatch cloud = scatter(material, stress, 64, 24, strain, random);
+    std::vector<double> end;
+    for (std::size_t i = 0; i < cloud.count(); ++i) {
+        for (const Column& c : cloud.stress_old)
+            end.push_back(c[i]);
+        for (const Column& c : cloud.state_old)
+            end.push_back(c[i]);
+    }
+    return end;
+}
+
+// Does another value of this number lead elsewhere? A soil that refuses the values, or the stress with them, heeds them.
+bool matters(const Subject& subject, std::size_t parameter, double strain, const std::vector<double>& end) {
+    const gault_value& given = subject.use.model.parameters.values[parameter];
+    const gault_parameter& p = *subject.use.model.component->declaration->parameters[parameter];
+    for (const double factor : {1.01, 0.99}) {
+        gault_value other = given;
+        other.real = given.real != 0.0 ? factor * given.real : factor - 1.0;
+        if (!(other.real > p.min && other.real < p.max)) continue;
+        try {
+            if (end_of_path(Material(with_value(subject.use, parameter, other)), subject.stress, strain) != end)
+                return true;
+        } catch (const std::runtime_error&) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Some first steps of a soil with an unusual parameter: it may refuse them. What is wrong; empty: nothing.
 std::string first_steps(const Material& material, const Tensor& stress) {
     Random random(11);
@@ -171,6 +203,43 @@ std::string first_steps(const Material& material, const Tensor& stress) {
 }
 
 } // namespace
+
+// A state that stays where it started while soil yields was forgotten. What a UMAT has in reserve is its own matter.
+Finding effect(const Subject& subject) {
+    const Material material(subject.use);
+    const std::optional<double> yields = strain_to_yield(material, subject.stress);
+    const double strain = yields.value_or(usual_strain);
+    Random random(4);
+    const PointBatch start = scatter(material, subject.stress, 1, 0, 0.0, random);
+    const std::vector<double> end = end_of_path(material, subject.stress, strain);
+    const std::size_t row = 6 + start.state_old.size();
+    std::vector<std::string> still, idle;
+    for (const StateInfo& info : material.states()) {
+        bool moves = false;
+        for (int k = 0; k < static_cast<int>(info.declared.shape); ++k) {
+            const auto component = static_cast<std::size_t>(info.first + k);
+            const double first = start.state_old[component][0];
+            moves |= first != info.declared.initial;
+            for (std::size_t i = 0; i < end.size() / row; ++i)
+                moves |= end[i * row + 6 + component] != first;
+        }
+        if (!moves) still.push_back(fmt::format("state '{}' never changes", info.declared.name));
+    }
+    const std::vector<gault_value>& given = subject.use.model.parameters.values;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const gault_parameter& p = *subject.use.model.component->declaration->parameters[i];
+        if (p.type == GAULT_REAL && given[i].count > 0 && !matters(subject, i, strain, end))
+            idle.push_back(fmt::format("'{}' changes nothing", p.name));
+    }
+    const bool declared = material.api().instance_states == nullptr;
+    std::string figure =
+        yields ? fmt::format("it yields in steps of up to {:.2g} %", 100.0 * strain) : "nothing yields";
+    for (const auto* list : {&still, &idle})
+        for (const std::string& text : *list)
+            figure += "; " + text;
+    if (!yields && !(still.empty() && idle.empty())) return left_out(figure);
+    return judge(still.empty() || !declared, figure);
+}
 
 Finding bounds(const Subject& subject) {
     const gault_component& c = *subject.use.model.component->declaration;
@@ -418,7 +487,7 @@ Finding increments(const Subject& subject) {
 Finding retry(const Subject& subject) {
     const Material material(subject.use);
     Random random(4);
-    const PointBatch cloud = scatter(material, subject.stress, 64, 12, 2e-3, random);
+    const PointBatch cloud = scatter(material, subject.stress, 64, 12, strain_to_yield(material, subject.stress).value_or(usual_strain), random);
     int asked = 0, tried = 0;
     for (std::size_t i = 0; i < cloud.count(); ++i)
         for (const double size : {1e-3, 1e-2, 0.1}) {

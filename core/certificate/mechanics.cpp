@@ -18,12 +18,13 @@ Finding tangent(const Subject& subject) {
     if (!(material.api().flags & GAULT_HAS_TANGENT))
         return left_out("declares none: the host takes differences");
     Random random(5);
-    const PointBatch cloud = scatter(material, subject.stress, 400, 12, 2e-3, random);
+    const PointBatch cloud = scatter(material, subject.stress, 400, 12, strain_to_yield(material, subject.stress).value_or(usual_strain), random);
     std::vector<double> errors;
-    int bent = 0;
+    int bent = 0, yielding = 0;
     for (std::size_t i = 0; i < cloud.count(); ++i) {
         std::optional<PointBatch> one = answered_one(cloud, i, 1e-6, 1e-2, random);
         if (!one || one->update(1.0, true).status != GAULT_OK) continue;
+        yielding += is_elastic(*one) ? 0 : 1;
         Matrix6 own;
         for (std::size_t k = 0; k < 36; ++k)
             own(static_cast<Eigen::Index>(k / 6), static_cast<Eigen::Index>(k % 6)) = one->tangent[k][0];
@@ -39,8 +40,8 @@ Finding tangent(const Subject& subject) {
     std::sort(errors.begin(), errors.end());
     return judge(errors.back() <= right,
                  fmt::format("off by {:.1g} of the modulus in the median, {:.1g} at most of {} points; "
-                             "the stress bends at {} more",
-                             errors[errors.size() / 2], errors.back(), errors.size(), bent));
+                             "the stress bends at {} more; {} yield",
+                             errors[errors.size() / 2], errors.back(), errors.size(), bent, yielding));
 }
 
 namespace {

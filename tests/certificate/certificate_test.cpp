@@ -20,7 +20,7 @@ const Registry& soils() {
 }
 
 // Without the walk, which takes a second, and the speed, which is no verdict.
-const std::vector<std::string> quick = {"declaration",    "bounds",  "batches", "threads",   "increments",
+const std::vector<std::string> quick = {"declaration", "effect",    "bounds",  "batches", "threads",   "increments",
                                         "retry",          "rate",    "tangent", "step_size", "objectivity",
                                         "elastic_cycles", "modulus", "cavity"};
 
@@ -83,6 +83,7 @@ const Wrong wrongs[] = {
     {"undocumented",
      {"declaration"},
      "state 'work': no unit 'kJo/m^3'; state 'work': 'Of the past' is no sentence"},
+    {"forgets_a_state", {"effect"}, "state 'plastic_strain' never changes"},
     {"crashes_at_bound", {"bounds"}, "crashed: Aborted"},
     {"fails_at_bound",
      {"bounds"},

@@ -17,6 +17,13 @@ struct Undocumented : Elastic {
     static constexpr std::array states{gault::scalar_state("work", "kJo/m^3", "Of the past")};
 };
 
+// ---- effect ----
+
+struct ForgetsAState : Cone {
+    static constexpr const char* name = "forgets_a_state";
+    static constexpr std::array states{gault::scalar_state("plastic_strain", "1", "Never written.", 0, 0)};
+};
+
 // ---- bounds ----
 
 // What becomes of it where `extra` is 1, the largest that it allows.
@@ -378,7 +385,7 @@ struct RefusesToStart : Elastic {
 
 } // namespace
 
-GAULT_MODULE("wrong_soils", "1.0.0", "The Gault authors", "MIT", gault::Material<Undocumented>,
+GAULT_MODULE("wrong_soils", "1.0.0", "The Gault authors", "MIT", gault::Material<Undocumented>, gault::Material<ForgetsAState>,
              gault::Material<AtItsBound<0>>, gault::Material<AtItsBound<1>>, gault::Material<AtItsBound<2>>,
              gault::Material<AtItsBound<3>>, gault::Material<OneForAll>, Spoilt<ByPosition>,
              gault::Material<ByNeighbour>, Spoilt<ByPadding>, Spoilt<ByOrder>, Spoilt<ByCalls>, WithoutStates,

@@ -71,24 +71,29 @@ class Point {
     double time() const { return batch_->time; } // s, at the end of the step
     double dt() const { return batch_->dt; }
 
-    // States, by index of component; one that is never set keeps its value.
+    // States, by index of component: a scalar counts 1, a vector 3, a tensor 6 (gault::state_index finds it by
+    // name). One that is never set keeps its value. An index beyond the states fails the update.
     GAULT_INLINE Pack state_old(int component) const {
+        if (!has_states(component, 1)) return std::numeric_limits<double>::quiet_NaN();
         return Pack::load(batch_->state_old[component] + first_);
     }
-    GAULT_INLINE void set_state(int component, Pack value) { value.store(batch_->state[component] + first_); }
+    GAULT_INLINE void set_state(int component, Pack value) {
+        if (has_states(component, 1)) value.store(batch_->state[component] + first_);
+    }
     GAULT_INLINE Components symmetric_state_old(int component) const {
-        return load6(batch_->state_old + component, first_);
+        return has_states(component, 6) ? load6(batch_->state_old + component, first_) : Components{};
     }
     GAULT_INLINE void set_symmetric_state(int component, const Components& value) {
-        store6(value, batch_->state + component, first_);
+        if (has_states(component, 6)) store6(value, batch_->state + component, first_);
     }
 
     GAULT_INLINE Pack input(int index) const { return Pack::load(batch_->input[index] + first_); }
     GAULT_INLINE Pack F_old(int i, int j) const { return Pack::load(batch_->F_old[3 * i + j] + first_); }
     GAULT_INLINE Pack F_new(int i, int j) const { return Pack::load(batch_->F_new[3 * i + j] + first_); }
 
-    // d stress[row] / d strain[column], where a unit of column xy means strain xy and yx together. All 36 are
-    // due. With finite_strain: see gault_points.
+    // d stress[row] / d strain[column], where a unit of column xy means strain xy and yx together: in a shear column
+    // C_..xy + C_..yx, so isotropic elasticity has 2G on the whole diagonal but for lame, and a product n (x) n of
+    // directions 2 n_row n_column there. All 36 are due. With finite_strain: see gault_points.
     GAULT_INLINE bool wants_tangent() const { return batch_->tangent[0] != nullptr; }
     GAULT_INLINE void set_tangent(int row, int column, Pack value) {
         value.store(batch_->tangent[6 * row + column] + first_);
@@ -116,8 +121,8 @@ class Point {
         int64_t point = -1;
         double fraction = 1.0;
     };
-    GAULT_INLINE Point(const gault_points* batch, int64_t first, Outcome* outcome)
-        : batch_(batch), first_(first), outcome_(outcome) {
+    GAULT_INLINE Point(const gault_points* batch, int64_t first, Outcome* outcome, int state_components)
+        : batch_(batch), first_(first), outcome_(outcome), state_components_(state_components) {
         strain = load6(batch->strain, first);
         stress = stress_old = load6(batch->stress_old, first);
         modulus = shear_modulus = Pack(std::numeric_limits<double>::quiet_NaN());
@@ -129,6 +134,13 @@ class Point {
     }
 
   private:
+    GAULT_INLINE bool has_states(int component, int count) const {
+        if (component >= 0 && component + count <= state_components_) return true;
+        outcome_->text = "the model reads or writes a state beyond those that it declares: indices count "
+                         "components, 6 for a tensor; see gault::state_index";
+        outcome_->point = first_;
+        return false;
+    }
     static GAULT_INLINE Components load6(const double* const* arrays, int64_t first) {
         Components c;
         for (int i = 0; i < 6; ++i)
@@ -157,6 +169,7 @@ class Point {
     const gault_points* batch_;
     int64_t first_;
     Outcome* outcome_;
+    int state_components_;
 };
 
 namespace detail {
@@ -202,14 +215,14 @@ struct rate_flag<T, std::enable_if_t<T::rate_dependent>>
     : std::integral_constant<uint32_t, GAULT_RATE_DEPENDENT> {};
 
 template <class T>
-uint32_t state_components(const T& model) {
-    uint32_t n = 0;
+int state_components(const T& model) {
+    int n = 0;
     if constexpr (has_instance_states<T>::value)
         for (const gault_state& s : model.instance_states())
-            n += s.shape;
+            n += static_cast<int>(s.shape);
     else if constexpr (has_states<T>::value)
         for (const gault_state& s : T::states)
-            n += s.shape;
+            n += static_cast<int>(s.shape);
     return n;
 }
 
@@ -235,11 +248,11 @@ gault_status update(const void* self, gault_points* batch, gault_error* error) n
         Local<T> model = *static_cast<const T*>(self);
         Point::Outcome outcome;
         const auto bytes = sizeof(double) * static_cast<std::size_t>(batch->padded);
-        const uint32_t components = state_components(model);
-        for (uint32_t i = 0; i < components; ++i)
+        const int components = state_components(model);
+        for (int i = 0; i < components; ++i)
             std::memcpy(batch->state[i], batch->state_old[i], bytes);
         for (int64_t first = 0; first < batch->padded; first += pack_lanes) {
-            Point p(batch, first, &outcome);
+            Point p(batch, first, &outcome, components);
             model.update(p);
             p.store();
         }
@@ -251,9 +264,10 @@ template <class T>
 gault_status start(const void* self, gault_points* batch, gault_error* error) noexcept {
     return guarded(error, [&] {
         const T& model = *static_cast<const T*>(self);
+        const int components = state_components(model);
         Point::Outcome outcome;
         for (int64_t first = 0; first < batch->padded; first += pack_lanes) {
-            Point p(batch, first, &outcome);
+            Point p(batch, first, &outcome, components);
             model.start(p);
         }
         return conclude(outcome, batch, error);

@@ -65,7 +65,8 @@ class OnePoint {
         void* self = nullptr;
         const gault_status status = create(values, &self, &error);
         if (status == GAULT_OK) model().destroy(self);
-        return status == GAULT_INVALID ? model().parameters[error.parameter]->name : "";
+        if (status != GAULT_INVALID) return "";
+        return error.parameter < 0 ? "a parameter that is not declared" : model().parameters[error.parameter]->name;
     }
 
   private:

@@ -152,8 +152,16 @@ struct ParameterList {
     static void assign(T&, const gault_value*) {}
     static int32_t index(const std::string&) { return -1; }
 };
+template <class Array>
+constexpr bool have_members_of_their_own(const Array& parameters) {
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (parameters[i].assign == parameters[j].assign) return false;
+    return true;
+}
 template <class T>
 struct ParameterList<T, true> {
+    static_assert(have_members_of_their_own(T::parameters), "two parameters are read into the same member");
     static constexpr auto pointers = terminated(T::parameters, declaration_of);
     static void assign(T& owner, const gault_value* values) {
         for (std::size_t i = 0; i < T::parameters.size(); ++i)
