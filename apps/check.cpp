@@ -25,7 +25,7 @@ Action declare_check(CLI::App& options) {
     const auto arguments = std::make_shared<SceneArguments>();
     arguments->declare(options);
     options.footer("Prints what was left to the program and what it took, how many points, nodes or facets "
-                   "each selection took hold of,\nand the time step. Writes nothing.\n\n"
+                   "each selection took hold of,\nwhich file each soil came from and its parameters in SI units, and the time step. Writes nothing.\n\n"
                    "Examples:\n"
                    "  gault check configs/paper/fahey.yaml\n"
                    "  gault check configs/paper/fahey.yaml --set grid.cells=[36,1]");

@@ -25,7 +25,8 @@ int describe(const Arguments& arguments) {
     }
     if (!found)
         throw core::InputError(
-            fmt::format("no component '{}'{}", arguments.name, core::suggestion(arguments.name, names)));
+            fmt::format("no component '{}'{}", arguments.name, core::suggestion(arguments.name, names)) +
+                               "; plugins of your own are found with --plugin-path or GAULT_PLUGIN_PATH");
     return 0;
 }
 

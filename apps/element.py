@@ -57,7 +57,7 @@ def panels(table, over_time):
         yield axial, strain, AXIAL, STRAIN
         yield axial, lateral / np.maximum(axial, 1e-9), AXIAL, "lateral over axial stress $\\sigma'_{xx}/\\sigma'_{yy}$"
         return
-    yield (strain, volume, name, VOLUME) if varies(volume) else (strain, pore, name, PORE)
+    yield (strain, pore, name, PORE) if varies(pore) and not varies(volume) else (strain, volume, name, VOLUME)
     if over_time:
         time = table["time_s"]
         seconds, unit = next(pair for pair in TIMES if np.ptp(time) >= 3 * pair[0] or pair[0] == 1)

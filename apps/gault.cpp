@@ -37,8 +37,10 @@ constexpr std::array commands{
 };
 
 std::string documents() {
-    const std::filesystem::path installed = installation() / "share/doc/gault/docs/index.md";
-    return std::filesystem::exists(installed) ? installed.string() : "docs/index.md of the sources";
+    const std::filesystem::path share = installation() / "share", page = share / "doc/gault/docs/index.md";
+    if (!std::filesystem::exists(page)) return "Documents: docs/index.md of the sources.";
+    return fmt::format("Documents: {}\nScenes, as `configs` in documents and examples: {}", page.string(),
+                       (share / "gault/configs").string());
 }
 
 bool is_option(const std::string& word) {
@@ -104,9 +106,9 @@ int dispatch(int count, char** words) {
         "  gault run configs/paper/fahey.yaml -o out/fahey\n"
         "  gault check configs/paper/fahey.yaml\n"
         "  gault describe mohr_coulomb\n"
-        "`gault COMMAND --help` lists the options of a command; " +
+        "`gault COMMAND --help` lists the options of a command.\n\n" +
         documents() +
-        " says more.\n\n"
+        "\n\n"
         "Exit status: 0 done, 2 wrong scene or command line, 3 the run failed, 130 interrupted.");
     std::string level = "info";
     app.add_option("--log-level", level, "debug, info, warn or error")

@@ -80,10 +80,8 @@ def draw_curve(axes, summary, history, reference, measured):
     if measured:
         axes.axhline(measured, color=MEASURED, lw=1.2, ls=(0, (6, 3)), label=f"measured peak, {measured:g} kPa")
     axes.plot(strain[peak], pressure[peak], "o", color=LINE, ms=5)
-    side = -1 if strain[peak] > 0.7 * strain.max() else 1  # of the point, so that it stays within the axes
-    axes.annotate(f"peak {pressure[peak]:.1f} kPa\nat {strain[peak]:.2f} %", (strain[peak], pressure[peak]),
-                  xytext=(10 * side, -10 if side > 0 else -60), textcoords="offset points", va="top", ha="right" if side < 0 else "left", color=LINE)
-    axes.set(xlabel="cavity strain (%)", ylabel="true cavity pressure (kPa)", xlim=(min(0, strain.min()), strain.max()))
+    axes.annotate(f"peak {pressure[peak]:.1f} kPa at {strain[peak]:.2f} %", (0.03, 0.97), xycoords="axes fraction", va="top", color=LINE)
+    axes.set(xlabel="cavity strain (%)", ylabel="true cavity pressure (kPa)", xlim=(min(0, strain.min()), strain.max()), ylim=(None, 1.12 * pressure.max()))
     axes.legend(loc="lower right")
 
 

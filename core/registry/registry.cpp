@@ -139,6 +139,7 @@ const Component& Registry::find(gault_kind kind, std::string_view name, const Lo
     std::string text = "no " + std::string(kind_name(kind)) + " is named '" + std::string(name) + "'";
     if (!elsewhere.empty()) text += " (it is a " + elsewhere + ")";
     text += names.empty() ? "; no plugin that was found provides any" : suggestion(name, names);
+    text += "; plugins of your own are found with `plugins:` in the scene, --plugin-path or GAULT_PLUGIN_PATH";
     throw InputError(where, text);
 }
 

@@ -4,9 +4,37 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include <utility>
 
 namespace gault::core {
+
+namespace {
+
+std::string value_text(const gault_parameter& p, const gault_value& value) {
+    if (p.type == GAULT_CHOICE || p.type == GAULT_TEXT_VALUE) return value.text;
+    if (p.type != GAULT_REAL) return fmt::format("{}", value.integer);
+    const std::string unit = p.unit;
+    if (unit == "rad") return fmt::format("{:.6g} deg", value.real * 180.0 / std::numbers::pi);
+    return unit == "1" ? fmt::format("{:.6g}", value.real) : fmt::format("{:.6g} {}", value.real, unit);
+}
+
+// The model and its parameters as they were understood: "NAME 1.0.0 (FILE): young_modulus 1e+08 Pa, ...".
+std::string as_taken(const ComponentUse& use) {
+    const gault_component& c = *use.component->declaration;
+    std::string text = fmt::format("{} {} ({})", c.name, c.version, use.component->file.string());
+    const char* between = ": ";
+    for (std::size_t i = 0; i < use.parameters.values.size(); ++i) {
+        const gault_parameter& p = *c.parameters[i];
+        if (use.parameters.values[i].count == 0 || p.type > GAULT_TEXT_VALUE) continue;
+        text += fmt::format("{}{} {}", between, p.name, value_text(p, use.parameters.values[i]));
+        between = ", ";
+    }
+    return text;
+}
+
+} // namespace
 
 std::vector<std::string> check_scene(const Scene& scene) {
     Simulation simulation(scene, 1);
@@ -22,7 +50,8 @@ std::vector<std::string> check_scene(const Scene& scene) {
     lines.insert(lines.end(), model.description.begin(), model.description.end());
     for (std::size_t m = 0; m < model.materials.size(); ++m)
         lines.push_back(
-            fmt::format("material {}: {} points", model.materials[m].name(), model.points[m].count()));
+            fmt::format("material {}: {} points, {}", model.materials[m].name(), model.points[m].count(),
+                        as_taken(scene.materials[m].model)));
     for (std::string& line : simulation.solver().boundaries().description())
         lines.push_back(std::move(line));
     const double dt = simulation.solver().allowed_step();

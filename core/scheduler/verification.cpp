@@ -107,7 +107,8 @@ void Verification::add_palmer(const Scene& scene, const std::vector<ColumnInfo>&
                 history_column(columns, use.x, use.where),
                 history_column(columns, use.y, use.where),
                 {},
-                {}};
+                {},
+                true};
     for (int k = 0; k <= places; ++k) { // denser where the curve bends, and a little beyond the end
         const double share = static_cast<double>(k) / places, x = use.to * share * share * (1.0 + 1e-6);
         curve.x_reference.push_back(x);
@@ -150,16 +151,20 @@ nlohmann::json Verification::finish(const std::vector<std::vector<double>>& rows
     nlohmann::json result = nlohmann::json::object();
     for (const Curve& curve : curves_) {
         std::vector<double> x, y;
+        double to = curve.use.to;
         for (const auto& row : rows) {
+            if (curve.first_loading && !x.empty() && row[curve.x] < x.back()) {
+                to = std::min(to, x.back());
+                break;
+            }
             x.push_back(row[curve.x]);
             y.push_back(row[curve.y]);
         }
-        nlohmann::json j = {
-            {"x", curve.use.x}, {"y", curve.use.y}, {"from", curve.use.from}, {"to", curve.use.to}};
+        nlohmann::json j = {{"x", curve.use.x}, {"y", curve.use.y}, {"from", curve.use.from}, {"to", to}};
         j.update(curve.source);
         try {
             const CurveError error =
-                compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use.from, curve.use.to);
+                compare_curve(x, y, curve.x_reference, curve.y_reference, curve.use.from, to);
             j["largest_relative_error"] = error.largest;
             j["largest_at"] = error.largest_at;
             j["root_mean_square"] = error.root_mean_square;

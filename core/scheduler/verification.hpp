@@ -33,6 +33,7 @@ class Verification {
         nlohmann::json source; // {file} or {against}
         std::size_t x, y;      // columns of the history
         std::vector<double> x_reference, y_reference;
+        bool first_loading = false; // holds until x falls
     };
     struct Profile {
         std::string measure;

@@ -40,7 +40,7 @@ struct Pressuremeter {
             .above(0),
         gault::parameter<&Pressuremeter::row_strain>(
             "row_strain", "", "1",
-            "Cavity strain between rows; 0.025 %, and a row a step where there is no inertia.")
+            "Cavity strain between rows; 0.025 %, and a row a step where there is no inertia, ten each way of a loop.")
             .above(0),
         gault::parameter<&Pressuremeter::critical_friction_angle>(
             "critical_friction_angle", "phi_cv", "rad",
@@ -270,11 +270,23 @@ struct Pressuremeter {
         return share;
     }
 
+    static constexpr double rows_of_a_loop = 10.0; // each way, at least, so that it is drawn as what it is
+
     // s, over which a part may change much.
     static double longest(const Part& part, const State& now, double a0) {
         if (part.rate == 0.0) return gault::infinity;
         return part.drive == Part::Drive::wall ? 0.05 * (1.0 + now.strain) * a0 / std::abs(part.rate)
                                                : std::max(std::abs(now.pressure), 1e4) / std::abs(part.rate);
+    }
+
+    // s, from one end of a loop to the other.
+    static double way_of_a_loop(gault::Step& step, const Part& part, const Path& path) {
+        if (part.drive == Part::Drive::wall) return path.end();
+        double way = gault::infinity;
+        for (const Event& event : part.ends)
+            if (event.is(&State::pressure) && part.rate != 0.0)
+                way = std::min(way, std::abs((event.target - step.memory(part_pressure)) / part.rate));
+        return way;
     }
 
     // To the part that lies ahead; false at the end of the test.
@@ -308,6 +320,8 @@ struct Pressuremeter {
         const Path path = path_of(step, part, a0);
         double next = next_event(step, part, before, now, step.memory(part_time));
         if (part.drive == Part::Drive::wall) next = std::min(next, step.memory(part_time) + path.end());
+        if (step.repeatable() && part.loop > 0)
+            next = std::min(next, now.time + way_of_a_loop(step, part, path) / rows_of_a_loop);
         for (const double reading : part.readings)
             if (const double at = step.memory(part_time) + reading; at > now.time * (1.0 + 1e-12))
                 next = std::min(next, at);

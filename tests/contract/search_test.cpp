@@ -131,10 +131,14 @@ TEST_F(Search, SuggestsTheNearestName) {
         }
         return "found";
     };
+    const std::string hint = "; plugins of your own are found with `plugins:` in the scene, --plugin-path or "
+                             "GAULT_PLUGIN_PATH";
     EXPECT_EQ(text(GAULT_MATERIAL, "hypolastic"),
               "scene.yaml:4:9: no material is named 'hypolastic'; did you mean "
-              "'hypoelastic'?; allowed: hypoelastic");
+              "'hypoelastic'?; allowed: hypoelastic" +
+                  hint);
     EXPECT_EQ(text(GAULT_PROGRAM, "hypoelastic"),
               "scene.yaml:4:9: no program is named 'hypoelastic' (it is a material); no "
-              "plugin that was found provides any");
+              "plugin that was found provides any" +
+                  hint);
 }
