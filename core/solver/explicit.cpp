@@ -7,6 +7,7 @@ namespace gault::core {
 namespace {
 
 constexpr double strain_between_limits = 0.02, stiffer = 1.05;
+constexpr int64_t steps_between_questions = 8; // soils may take long to find their moduli
 
 double largest(const Column& column) {
     return column.empty() ? 0.0 : *std::max_element(column.begin(), column.end());
@@ -127,6 +128,7 @@ void ExplicitSolver::account(double dt) {
 
 bool ExplicitSolver::step(double dt) {
     load_first();
+    motion_->ask_for_moduli(steps_ % steps_between_questions == 0);
     boundaries_.constrain(*motion_, time_ + dt, dt, fixed_, value_);
     if (fixed_.held() != held_) { // what is released now was not loaded when the last step ended
         held_ = fixed_.held();

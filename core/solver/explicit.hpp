@@ -9,7 +9,8 @@ class ExplicitSolver final : public Solver {
     ExplicitSolver(const Scene& scene, Model& model, int threads);
 
     // The factor of the scene times the true limit, which is found anew when the soil has been strained by
-    // another 2 %, has said in a step that it is stiffer by 5 %, or is held otherwise.
+    // another 2 %, has said in a step that it is stiffer by 5 % (it is asked in every eighth), or is held
+    // otherwise.
     double allowed_step() override;
     bool step(double dt) override;
     double stability_limit() const override { return limit_; }

@@ -88,13 +88,14 @@ void Motion::update_stress(const Task& task, const BatchView& view, Workspace& w
                            const Moment& moment, Outcome& outcome) {
     const Material& material = materials_[task.material];
     const Batch& batch = points_[task.material].layout().batches[task.batch];
-    double* modulus = workspace.column(Workspace::modulus);
-    double* shear = workspace.column(Workspace::modulus + 1);
+    double* modulus = asks_ ? workspace.column(Workspace::modulus) : nullptr;
+    double* shear = asks_ ? workspace.column(Workspace::modulus + 1) : nullptr;
     static std::mutex legacy; // models with global state are called one at a time
     std::unique_lock<std::mutex> alone(legacy, std::defer_lock);
     if (material.one_at_a_time()) alone.lock();
     outcome.failure = update_batch(material, points_[task.material], points_[task.material].columns().state,
                                    batch, view, workspace, moment, grid_view(), nullptr, {modulus, shear});
+    if (!asks_) return;
     const double water = material.water() ? material.water()->stiffness : 0.0;
     std::array<double, page_slots> most{}; // slot by slot of a page: several at once
     for (int page = 0; page < batch.pages; ++page, modulus += page_slots)
@@ -159,7 +160,7 @@ void Motion::elastic_stress(const std::array<Column, 2>& moduli, const Task& tas
 
 void Motion::settle(const std::vector<Outcome>& outcomes) {
     largest_strain_ = 0.0;
-    largest_modulus_.assign(materials_.size(), 0.0);
+    if (asks_) largest_modulus_.assign(materials_.size(), 0.0);
     updates_ += static_cast<int64_t>(point_count());
     for (std::size_t t = 0; t < outcomes.size(); ++t) {
         const auto& [strain, failure, modulus] = outcomes[t];
@@ -176,7 +177,7 @@ void Motion::settle(const std::vector<Outcome>& outcomes) {
         if (failure.status != GAULT_OK)
             throw PointError(sentence(task.material, failure), task.material, failure.call);
         largest_strain_ = std::max(largest_strain_, strain.largest);
-        largest_modulus_[task.material] = std::max(largest_modulus_[task.material], modulus);
+        if (asks_) largest_modulus_[task.material] = std::max(largest_modulus_[task.material], modulus);
     }
 }
 

@@ -109,7 +109,9 @@ class Motion {
 
     int64_t configuration() const { return configuration_; }  // counts the times that anything moved
     double largest_strain() const { return largest_strain_; } // component of the last step
-    double largest_modulus(int material) const { return largest_modulus_[material]; } // P-wave, last step, Pa
+    // P-wave, of the last step in which soils were asked for their moduli, Pa; 0 before any.
+    double largest_modulus(int material) const { return largest_modulus_[material]; }
+    void ask_for_moduli(bool yes) { asks_ = yes; } // in the steps that follow
     int64_t updates() const { return updates_; }              // constitutive updates so far
     PhaseClock& clock() { return clock_; }
     const Grid& grid() const { return grid_; }
@@ -170,6 +172,7 @@ class Motion {
     PhaseClock clock_;
     double largest_strain_ = 0.0;
     std::vector<double> largest_modulus_; // by material
+    bool asks_ = false;
     int64_t updates_ = 0, configuration_ = 0;
 };
 

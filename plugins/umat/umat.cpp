@@ -240,6 +240,7 @@ gault_status Umat::start(gault_points& p, gault_error* error) const {
 gault_status Umat::update(gault_points& p, gault_error* error) const {
     const auto lock = alone();
     umat::Call call(routine_);
+    umat::Known known;
     double fraction = 1.0;
     for (int64_t point = 0; point < p.count; ++point) {
         load(call, p, point);
@@ -257,7 +258,7 @@ gault_status Umat::update(gault_points& p, gault_error* error) const {
             return refuse(error, point, "returned a DDSDDE that is not finite");
         store(call, p, point);
         if (!p.modulus && !p.shear_modulus) continue;
-        const umat::Moduli m = moduli_after(call, trouble);
+        const umat::Moduli m = p.dt > 0.0 ? known.moduli_of(call) : moduli_after(call, trouble);
         if (!trouble.empty()) return refuse(error, point, trouble);
         if (p.modulus) p.modulus[point] = m.p_wave;
         if (p.shear_modulus) p.shear_modulus[point] = m.shear;
