@@ -88,7 +88,8 @@ TEST_F(Components, CheckSaysWhatEverySelectionTookHoldOf) {
     EXPECT_EQ(check.status, 0);
     EXPECT_EQ(check.err, "");
     for (const char* part :
-         {"material sand: 1152 points", "pressure on outer: ", "roller on top, bottom: ", "wall on inner: ",
+         {"material sand: 1152 points, mohr_coulomb ", "young_modulus 1e+08 Pa, poisson_ratio 0.25, ",
+          "friction_angle 48 deg", "pressure on outer: ", "roller on top, bottom: ", "wall on inner: ",
           "grid.basis: quadratic", "stable step ", "this scene can run"})
         EXPECT_TRUE(has(check.out, part)) << part << "\n" << check.out;
     EXPECT_TRUE(fs::is_empty(work)) << "check writes nothing";

@@ -377,9 +377,9 @@ TEST_F(Running, AProgramThatFailsOrWantsToRepeatAStepEndsTheRun) {
 TEST_F(Running, CheckingSaysWhatTheSceneTookHoldOf) {
     const auto said = check_scene(column(1e-3).scene);
     const auto has = [&](const std::string& line) {
-        return std::find(said.begin(), said.end(), line) != said.end();
+        return std::any_of(said.begin(), said.end(), [&](const std::string& s) { return s.starts_with(line); });
     };
-    EXPECT_TRUE(has("material soil: 192 points"));
+    EXPECT_TRUE(has("material soil: 192 points, "));
     EXPECT_TRUE(has("test_boundary on top: 6 nodes"));
     EXPECT_TRUE(said.back().starts_with("stable step ")) << said.back();
 }
