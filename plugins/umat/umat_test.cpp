@@ -9,13 +9,6 @@
 #include <random>
 #include <thread>
 
-#ifdef __SANITIZE_ADDRESS__ // whose search for leaks stumbles over the thread-local data of libraries that were closed
-extern "C" const char* __lsan_default_options();
-extern "C" const char* __lsan_default_options() {
-    return "use_tls=0";
-}
-#endif
-
 namespace {
 using namespace plugin_test;
 
