@@ -43,8 +43,6 @@ if ((${#selection[@]})); then
 else
     echo "Tests: all of them"
 fi
-# The search for leaks stumbles over thread-local data of libraries that were closed.
-export LSAN_OPTIONS=${LSAN_OPTIONS:-use_tls=0}
 status=0
 ctest --preset "$preset" -j "$(nproc)" "${selection[@]}" "$@" || status=$?
 if [[ $preset == coverage ]]; then
