@@ -104,7 +104,7 @@ int write_project(const Arguments& arguments, const fs::path& folder) {
     const fs::path source = installation() / "share/gault/template" / arguments.kind;
     if (!fs::is_directory(source))
         throw core::InputError(
-            fmt::format("'{}' is missing: it comes with the SDK (the Debian package gault-dev, "
+            fmt::format("'{}' is missing: it comes with the SDK (the Debian package gault, "
                         "or `cmake --install BUILD --component sdk`)",
                         source.string()));
     const std::string placeholder = "new_" + arguments.kind;
