@@ -81,7 +81,7 @@ def draw_curve(axes, summary, history, reference, measured):
         axes.axhline(measured, color=MEASURED, lw=1.2, ls=(0, (6, 3)), label=f"measured peak, {measured:g} kPa")
     axes.plot(strain[peak], pressure[peak], "o", color=LINE, ms=5)
     axes.annotate(f"peak {pressure[peak]:.1f} kPa at {strain[peak]:.2f} %", (0.03, 0.97), xycoords="axes fraction", va="top", color=LINE)
-    axes.set(xlabel="cavity strain (%)", ylabel="true cavity pressure (kPa)", xlim=(min(0, strain.min()), strain.max()), ylim=(None, pressure.max() + 0.12 * np.ptp(pressure)))
+    axes.set(xlabel="cavity strain (%)", ylabel="true cavity pressure (kPa)", xlim=(min(0, strain.min()), strain.max()), ylim=(None, pressure.max() + 0.16 * np.ptp(pressure)))
     axes.legend(loc="lower right")
 
 
