@@ -10,7 +10,8 @@
 namespace gault::core {
 namespace {
 
-constexpr double start_share = 0.05; // of the time, in which no load sets in gently
+constexpr double start_share = 0.05;              // of the time
+constexpr std::size_t kinetic_ratio_from_end = 3; // of the columns: see make_columns()
 
 } // namespace
 
@@ -65,11 +66,18 @@ std::vector<double> Simulation::row() {
 }
 
 double Simulation::largest_kinetic_ratio(const std::vector<std::vector<double>>& rows) const {
-    const std::size_t column = columns_.size() - 3; // see make_columns()
+    const std::size_t column = columns_.size() - kinetic_ratio_from_end;
     double largest = 0.0;
     for (const auto& row : rows)
         if (row[0] >= start_share * solver_->time()) largest = std::max(largest, row[column]);
     return largest;
+}
+
+double Simulation::quiet_since(const std::vector<std::vector<double>>& rows, double ratio) const {
+    const std::size_t column = columns_.size() - kinetic_ratio_from_end;
+    const auto last = std::find_if(rows.rbegin(), rows.rend(),
+                                   [&](const std::vector<double>& row) { return row[column] > ratio; });
+    return last == rows.rend() ? 0.0 : (*last)[0];
 }
 
 // The record of the program's last call; `since` shifts the time to that of the call before.
