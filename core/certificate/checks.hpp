@@ -4,10 +4,11 @@
 
 namespace gault::core::checks {
 
-// contract.cpp: the binary contract
+// declaration.cpp: what a model says of itself
 Finding declaration(const Subject& subject);
 Finding effect(const Subject& subject);
 Finding bounds(const Subject& subject);
+// contract.cpp: what it owes every caller
 Finding batches(const Subject& subject);
 Finding threads(const Subject& subject);
 Finding increments(const Subject& subject);

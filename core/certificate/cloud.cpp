@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace gault::core {
 namespace {
@@ -114,6 +115,40 @@ std::optional<PointBatch> answered_one(const PointBatch& cloud, std::size_t poin
     return std::nullopt;
 }
 
+PointBatch answered(const Material& material, const Tensor& stress, std::size_t count) {
+    Random random(1);
+    const PointBatch cloud =
+        scatter(material, stress, count, 12, strain_to_yield(material, stress).size, random);
+    PointBatch batch = cloud;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::optional<PointBatch> one = answered_one(cloud, i, 1e-7, 3e-3, random);
+        if (!one) throw RunError("a point answers no increment, however small");
+        batch.set_strain(i, one->get(one->strain, 0));
+    }
+    batch.pad();
+    if (const UpdateFailure failure = batch.update(1.0); failure.status != GAULT_OK)
+        throw RunError(fmt::format("points that are answered one by one are not as a batch: {}",
+                                   failure.text.empty() ? "RETRY" : failure.text));
+    return batch;
+}
+
+std::vector<double> outcome(const PointBatch& batch, std::size_t point) {
+    std::vector<double> row;
+    for (const Column& c : batch.stress)
+        row.push_back(c[point]);
+    for (const Column& c : batch.state)
+        row.push_back(c[point]);
+    for (const Column* c : {&batch.modulus, &batch.shear_modulus})
+        if (!c->empty()) row.push_back((*c)[point]);
+    return row;
+}
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::memcmp(a.data(), b.data(), std::min(a.size(), b.size()) * sizeof(double)) == 0;
+}
+bool all_finite(const std::vector<double>& outcome) {
+    return std::all_of(outcome.begin(), outcome.end(), [](double x) { return std::isfinite(x); });
+}
+
 bool is_elastic(const PointBatch& call) {
     PointBatch there = call;
     const Tensor start = call.get(call.stress_old, 0);
@@ -131,18 +166,18 @@ bool is_elastic(const PointBatch& call) {
     return rest && largest(*rest) <= 1e-4 * largest(*change) + 1e-13 * largest(start);
 }
 
-std::optional<double> strain_to_yield(const Material& material, const Tensor& stress) {
+YieldStrain strain_to_yield(const Material& material, const Tensor& stress) {
     constexpr std::size_t count = 60;
-    for (double strain = usual_strain; strain <= 0.064; strain *= 2.0) {
+    for (double strain = YieldStrain{}.size; strain <= 0.064; strain *= 2.0) {
         Random random(3);
         const PointBatch cloud = scatter(material, stress, count, 12, strain, random);
         std::size_t yielding = 0;
         for (std::size_t i = 0; i < count; ++i)
             if (const auto one = answered_one(cloud, i, 1e-8, 1e-7, random, quick))
                 yielding += is_elastic(*one) ? 0 : 1;
-        if (10 * yielding >= count) return strain;
+        if (10 * yielding >= count) return {strain, true};
     }
-    return std::nullopt;
+    return {};
 }
 
 namespace {

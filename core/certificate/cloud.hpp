@@ -31,13 +31,26 @@ std::optional<PointBatch> answered_one(const PointBatch& cloud, std::size_t poin
 
 constexpr double quick = 1e-6; // s: too short for soil to creep
 
+// `count` points of scatter(), some of which yield, each with an increment that the model answers by itself, and the
+// call of all of them made. RunError: it is not answered.
+PointBatch answered(const Material& material, const Tensor& stress, std::size_t count);
+
+// What a point came to: stress, states, and moduli where the model was asked.
+std::vector<double> outcome(const PointBatch& batch, std::size_t point);
+bool all_finite(const std::vector<double>& outcome);
+// The first entries alone where one was not asked for moduli.
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b);
+
 // Half as much again of the increment of the call of one point, and all of it taken back: is it where it was?
 bool is_elastic(const PointBatch& one);
 
-// For scatter(): the largest strain of a step that lets a tenth of the points yield, at least the usual one. Nothing:
-// 6.4 % are not enough.
-constexpr double usual_strain = 2e-3;
-std::optional<double> strain_to_yield(const Material& material, const Tensor& stress);
+// For scatter(): the largest strain of a step that lets a tenth of the points yield, at least the usual one; the usual
+// one where 6.4 % are not enough.
+struct YieldStrain {
+    double size = 2e-3;
+    bool yields = false;
+};
+YieldStrain strain_to_yield(const Material& material, const Tensor& stress);
 
 // d stress / d strain of the call in hand, of one point, by differences of strains shifted to both sides; columns as in
 // gault.h. Of three shifts that at which the sides agree best: rounding spoils the shorter, curvature the longer. Nothing:

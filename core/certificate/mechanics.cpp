@@ -18,7 +18,8 @@ Finding tangent(const Subject& subject) {
     if (!(material.api().flags & GAULT_HAS_TANGENT))
         return left_out("declares none: the host takes differences");
     Random random(5);
-    const PointBatch cloud = scatter(material, subject.stress, 400, 12, strain_to_yield(material, subject.stress).value_or(usual_strain), random);
+    const PointBatch cloud =
+        scatter(material, subject.stress, 400, 12, strain_to_yield(material, subject.stress).size, random);
     std::vector<double> errors;
     int bent = 0, yielding = 0;
     for (std::size_t i = 0; i < cloud.count(); ++i) {

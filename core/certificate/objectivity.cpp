@@ -109,7 +109,8 @@ using Turn = PointBatch (*)(const PointBatch&, const Eigen::Matrix3d&);
 
 Deviation deviation(const Subject& subject, const Material& material, const Rotation& rotation, Turn turn) {
     Random random(6);
-    const PointBatch cloud = scatter(material, subject.stress, points, 12, strain_to_yield(material, subject.stress).value_or(usual_strain), random);
+    const PointBatch cloud =
+        scatter(material, subject.stress, points, 12, strain_to_yield(material, subject.stress).size, random);
     Deviation found;
     found.difference.resize(material.states().size());
     found.scale.resize(material.states().size());

@@ -52,7 +52,7 @@ Finding modulus(const Subject& subject) {
     Random random(9);
     double most[2] = {0.0, 0.0};
     int points[2] = {0, 0};
-    for (const double strained : {2e-5, strain_to_yield(material, subject.stress).value_or(usual_strain)}) {
+    for (const double strained : {2e-5, strain_to_yield(material, subject.stress).size}) {
         const PointBatch cloud = scatter(material, subject.stress, 150, 12, strained, random);
         for (std::size_t i = 0; i < cloud.count(); ++i) {
             PointBatch rest(material, 1);

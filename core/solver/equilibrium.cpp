@@ -241,7 +241,7 @@ Equilibrium::Answer Equilibrium::evaluate(const Motion::State& start, const Vect
     for (int k = 0; k < 36; ++k)
         tangent[k] = tangent_[k].data();
     const UpdateFailure failure = update_batch(material, points, old.state, batch, view, workspace, moment,
-                                               view_of(motion_.grid()), tangent);
+                                               view_of(motion_.grid()), {.tangent = tangent});
     if (failure.status != GAULT_OK) {
         answer.fraction = failure.fraction;
         answer.reason = motion_.sentence(m, failure);

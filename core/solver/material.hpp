@@ -71,7 +71,7 @@ class Workspace {
         volume_ratio = 27,
         input = 28,
         probe = input + host_fields,
-        modulus = probe + 6, // and shear modulus
+        modulus = probe + 6,    // and shear modulus
         state_old = modulus + 2 // and on, a column a component
     };
     const double* zero() const { return zero_.data(); }
@@ -113,15 +113,19 @@ void attach_workspace(const Material& material, Workspace& workspace, BatchView&
 
 constexpr int tangent_columns = 4; // xx yy zz xy of the strain: the others stay zero in every symmetry so far
 
+// What a caller wants of an update beside stress and states; null: not asked for.
+struct Asked {
+    double* const* tangent = nullptr; // 36 arrays, as in gault.h; only columns and rows xx yy zz xy are right
+    double *modulus = nullptr, *shear_modulus = nullptr; // Pa
+};
+
 // Rotates tensor and vector states, fills the inputs, and calls the model. New stress and states are in the
-// points' columns afterwards; `state_old` may be those very columns. Without `tangent` the increment is
-// divided on RETRY; with it (36 arrays, as in gault.h; only columns and rows xx yy zz xy are right) RETRY is
-// an answer, and a model without a tangent of its own is differentiated numerically. `moduli`: columns for the
-// P-wave and shear moduli of the update, Pa.
+// points' columns afterwards; `state_old` may be those very columns. Without a tangent the increment is
+// divided on RETRY; with it RETRY is an answer, and a model without a tangent of its own is differentiated
+// numerically.
 UpdateFailure update_batch(const Material& material, Points& points, const std::vector<Column>& state_old,
                            const Batch& batch, const BatchView& view, Workspace& workspace,
-                           const Moment& moment, const GridView& grid, double* const* tangent = nullptr,
-                           const std::array<double*, 2>& moduli = {});
+                           const Moment& moment, const GridView& grid, const Asked& asked);
 
 // Deformation gradient of the point in a slot, xx xy yx yy zz.
 using Deformation = std::function<std::array<double, 5>(std::size_t)>;

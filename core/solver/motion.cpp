@@ -93,8 +93,9 @@ void Motion::update_stress(const Task& task, const BatchView& view, Workspace& w
     static std::mutex legacy; // models with global state are called one at a time
     std::unique_lock<std::mutex> alone(legacy, std::defer_lock);
     if (material.one_at_a_time()) alone.lock();
-    outcome.failure = update_batch(material, points_[task.material], points_[task.material].columns().state,
-                                   batch, view, workspace, moment, grid_view(), nullptr, {modulus, shear});
+    outcome.failure =
+        update_batch(material, points_[task.material], points_[task.material].columns().state, batch, view,
+                     workspace, moment, grid_view(), {.modulus = modulus, .shear_modulus = shear});
     if (!asks_) return;
     const double water = material.water() ? material.water()->stiffness : 0.0;
     std::array<double, page_slots> most{}; // slot by slot of a page: several at once
