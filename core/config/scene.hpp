@@ -97,7 +97,7 @@ struct SolverSettings {
     std::string dynamic_key; // a key of the scene that only the explicit solver heeds; empty: there is none
     // quasi-static
     double strain_step = 0.005; // largest strain component of a step that is aimed at
-    double tolerance = 1e-6;    // forces out of balance over all forces
+    double tolerance = 1e-7;    // forces out of balance over all forces
     double uneven = 1e-3;       // of the way so far: how far a step may miss the motion of the one before it,
                                 // where the soil's answer depends on the rate
     // explicit
