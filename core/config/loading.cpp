@@ -46,12 +46,24 @@ bool overlap(const SurfaceUse& a, const SurfaceUse& b) {
     return !a.cells || !b.cells || ((*a.cells)[0] < (*b.cells)[1] && (*b.cells)[0] < (*a.cells)[1]);
 }
 
+// A spring that falls with the radius needs one: on a flat side x is no radius, and soil inside a cavity is not beyond.
+void refuse_without_radius(const BoundaryUse& boundary, const SurfaceUse& surface, const Node& node,
+                           const std::string& path, const Scene& scene) {
+    const gault_component& c = *boundary.model.component->declaration;
+    if (!(static_cast<const gault_boundary_api*>(c.api)->flags & GAULT_BOUNDARY_ELASTIC_BEHIND)) return;
+    if (surface.side >= low_y || (surface.side == high_x && scene.geometry.kind != "block")) return;
+    throw InputError(node.where(), fmt::format("{}: {} stands for the soil outside a cylinder; it cannot act "
+                                               "on {}",
+                                               path, c.name, in_quotes(surface.name)));
+}
+
 void add_surface(BoundaryUse& boundary, const Node& node, const std::string& path, const Scene& scene) {
     const int index = surface_index(node, path, scene);
     const SurfaceUse& surface = scene.surfaces[static_cast<std::size_t>(index)];
     if (index == 0 && surface.name == "axis")
         throw InputError(node.where(), path + ": the axis takes no boundary condition; "
                                               "the radial velocity there is zero by symmetry");
+    refuse_without_radius(boundary, surface, node, path, scene);
     for (const int other : boundary.surfaces) {
         const SurfaceUse& before = scene.surfaces[static_cast<std::size_t>(other)];
         if (overlap(surface, before))

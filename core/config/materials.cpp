@@ -65,7 +65,7 @@ class RegionReader {
 
     void read_one(const Node& node, const std::string& path);
     int material_of(const Fields& fields, const std::string& name);
-    CellRange read_cells(const Fields& fields, const std::string& name) const;
+    void read_cells(const Fields& fields, Region& region) const;
     std::array<double, 2> read_extent(const Fields& fields, std::size_t axis) const;
 };
 
@@ -90,7 +90,7 @@ void RegionReader::read_one(const Node& node, const std::string& path) {
             throw InputError(name.where(), path + ": the region " + in_quotes(region.name) +
                                                " is there already, at " + other.where.text());
     region.material = material_of(fields, region.name);
-    region.cells = read_cells(fields, region.name);
+    read_cells(fields, region);
     scene_.regions.push_back(std::move(region));
 }
 
@@ -123,8 +123,7 @@ int RegionReader::material_of(const Fields& fields, const std::string& name) {
     return static_cast<int>(scene_.materials.size()) - 1;
 }
 
-CellRange RegionReader::read_cells(const Fields& fields, const std::string& name) const {
-    CellRange range{};
+void RegionReader::read_cells(const Fields& fields, Region& region) const {
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const auto& centres = centres_[axis];
         const auto [low, high] = read_extent(fields, axis);
@@ -135,11 +134,12 @@ CellRange RegionReader::read_cells(const Fields& fields, const std::string& name
                 fields.where(),
                 fmt::format("the region {} takes hold of nothing: no cell has its centre between {:g} m and "
                             "{:g} m along {}; widen it or refine the grid",
-                            in_quotes(name), low, high, axis_names(scene_.geometry)[axis]));
-        range.first[axis] = static_cast<int>(first - centres.begin());
-        range.last[axis] = static_cast<int>(last - centres.begin());
+                            in_quotes(region.name), low, high, axis_names(scene_.geometry)[axis]));
+        region.cells.first[axis] = static_cast<int>(first - centres.begin());
+        region.cells.last[axis] = static_cast<int>(last - centres.begin());
+        region.extent[axis] = {std::max(low, scene_.geometry.lower[axis]),
+                               std::min(high, scene_.geometry.upper[axis])};
     }
-    return range;
 }
 
 std::array<double, 2> RegionReader::read_extent(const Fields& fields, std::size_t axis) const {

@@ -66,8 +66,9 @@ struct CellRange { // cells [first, last) along each axis
 
 struct Region { // later regions win
     std::string name;
-    int material;    // index into Scene::materials
-    CellRange cells; // whose centres it holds; at least one
+    int material;                                // index into Scene::materials
+    CellRange cells;                             // whose centres it holds; at least one
+    std::array<std::array<double, 2>, 2> extent; // as written, within the grid: of x or r, of y; m
     Location where;
 };
 
@@ -97,7 +98,7 @@ struct SolverSettings {
     std::string dynamic_key; // a key of the scene that only the explicit solver heeds; empty: there is none
     // quasi-static
     double strain_step = 0.005; // largest strain component of a step that is aimed at
-    double tolerance = 1e-7;    // forces out of balance over all forces
+    double tolerance = 1e-6;    // forces out of balance over their change in a step
     double uneven = 1e-3;       // of the way so far: how far a step may miss the motion of the one before it,
                                 // where the soil's answer depends on the rate
     // explicit

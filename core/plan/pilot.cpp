@@ -77,23 +77,27 @@ Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds, const 
         const Elasticity elasticity(simulation.model(), simulation.solver().motion(),
                                     coarse->volumetric_strain);
         simulation.start();
+        Solver& solver = simulation.solver();
+        const auto mark = [&] {
+            if (!scene.program_surface) return;
+            pilot.marks.push_back({solver.time(),
+                                   solver.measure("normal_force", *scene.program_surface).value(),
+                                   solver.measure("displacement", *scene.program_surface).value()});
+        };
         while (!simulation.done()) {
+            const double event = simulation.next_event();
             simulation.step();
+            if (simulation.done() || solver.time() == event) mark();
             if (std::chrono::steady_clock::now() - start > std::chrono::duration<double>(seconds)) {
                 pilot.trouble = fmt::format("a pilot on a coarse grid was stopped after {:g} s", seconds);
                 break;
             }
         }
-        Solver& solver = simulation.solver();
         pilot.points = simulation.points();
         pilot.steps = solver.steps();
         pilot.updates = solver.updates();
         pilot.iterations = solver.iterations();
         pilot.end = solver.time();
-        if (scene.program_surface) {
-            pilot.force = solver.measure("normal_force", *scene.program_surface).value();
-            pilot.displacement = solver.measure("displacement", *scene.program_surface).value();
-        }
         pilot.inelastic_radius = elasticity.largest_inelastic_radius(solver.motion());
     } catch (const InputError& error) {
         pilot.trouble = error.what();

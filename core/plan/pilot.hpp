@@ -3,6 +3,7 @@
 #include "core/plan/plan.hpp"
 
 #include <exception>
+#include <vector>
 
 namespace gault::core {
 
@@ -11,9 +12,13 @@ struct Pilot {
     int64_t steps = 0, updates = 0, iterations = 0;
     double end = 0.0;              // of the program, s
     double inelastic_radius = 0.0; // the largest, reference, at which the soil is not elastic at the end, m
-    double force = 0.0, displacement = 0.0; // of the program's surface at the end, N and m; 0: it has none
-    std::string trouble;                    // why it did not come to its end; empty: it did
-    std::exception_ptr wrong;               // the scene is
+    struct
+        Mark { // of the program's surface at the end of the program, or at an event before: where a phase ends
+        double time, force, displacement; // s, N, m
+    };
+    std::vector<Mark> marks;  // none: it has no surface
+    std::string trouble;      // why it did not come to its end; empty: it did
+    std::exception_ptr wrong; // the scene is
 };
 
 Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds,

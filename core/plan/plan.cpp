@@ -2,8 +2,8 @@
 #include "core/base/memory.hpp"
 #include "core/plan/pilot.hpp"
 #include "core/plan/step_length.hpp"
+#include "core/scheduler/poisson_ratio.hpp"
 #include "core/scheduler/simulation.hpp"
-#include "core/solver/material.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,8 @@ namespace {
 constexpr double room = 1.25;           // radius of the domain over that of the soil that yields
 constexpr double least_radii = 10.0;    // of the domain, in radii of the cavity
 constexpr double incompressible = 0.45; // Poisson's ratio beyond which cells lock
-constexpr double sizing_seconds = 20.0, stepping_seconds = 1.0; // patience with a pilot
+constexpr double sizing_seconds = 20.0, stepping_seconds = 3.0; // patience with a pilot
+constexpr int more_cells = 200;                                 // that edges of regions may cost
 
 uint32_t flags_of(const BoundaryUse& use) {
     return static_cast<const gault_boundary_api*>(use.model.component->declaration->api)->flags;
@@ -47,35 +48,6 @@ std::string uneven(const Scene& scene, int side) {
         return fmt::format("'{}' may move along the axis",
                            scene.surfaces[static_cast<std::size_t>(side)].name);
     return "";
-}
-
-// Vertical stress at half the height, as if all were of this soil; Pa, compression positive.
-double vertical_at_middle(const Scene& scene, const MaterialUse& use) {
-    const InitialStress& initial = scene.initial_stress;
-    const double height = scene.geometry.upper[1] - scene.geometry.lower[1];
-    const double depth = initial.gravity ? initial.depth + 0.5 * height : 0.0;
-    return initial.vertical - use.density * scene.gravity[1] * depth;
-}
-
-// Of a soil under the initial stress at half the height.
-double poisson_ratio(const Scene& scene, const MaterialUse& use) {
-    const InitialStress& initial = scene.initial_stress;
-    const auto& [low, high] = std::pair(scene.geometry.lower, scene.geometry.upper);
-    const auto axis = [&](std::size_t k) { return Axis(Axis::graded(low[k], high[k], 1, 1.0), 1); };
-    const Grid grid(axis(0), axis(1), scene.symmetry != Symmetry::plane_strain);
-    const double vertical = -vertical_at_middle(scene, use);
-    const Material material(use);
-    PointColumns point;
-    point.place = {Column(1, 0.5), Column(1, 0.5)};
-    point.measure = Column(1, 1.0);
-    for (std::size_t k = 0; k < 6; ++k)
-        point.stress[k] = Column(1, k == 1 ? vertical : k < 3 ? initial.k0 * vertical : 0.0);
-    point.state.assign(static_cast<std::size_t>(material.state_components()), Column(1));
-    Points points(std::move(point), {0}, {0}, LayoutRequest{1, 1, 1, false});
-    start_material(material, points, view_of(grid));
-    Column p_wave, shear;
-    evaluate_moduli(material, points, view_of(grid), undeformed, 0.0, p_wave, shear);
-    return 0.5 * (p_wave[0] - 2.0 * shear[0]) / (p_wave[0] - shear[0]);
 }
 
 class Chooser {
@@ -206,12 +178,7 @@ class Chooser {
             return choose(key, "pointwise", "in radial symmetry one point a cell does not lock");
         if (frame_ == Frame::updated)
             return choose(key, "pointwise", "the points of a cell change as they move");
-        double nu = -1.0;
-        for (const MaterialUse& use : scene_.materials)
-            try {
-                nu = std::max(nu, poisson_ratio(scene_, use));
-            } catch (const RunError&) { // a soil that cannot bear the initial stress: the run will say so
-            }
+        const double nu = largest_poisson_ratio(scene_);
         if (nu > incompressible)
             choose(key, "cell_mean", fmt::format("with Poisson's ratio {:.4g} cells would lock", nu));
         else
@@ -229,7 +196,7 @@ class Chooser {
         if (basis_ == Basis::linear)
             choose("grid.basis", "linear", "with one point a cell: stresses of second order, no locking");
         else
-            choose("grid.basis", "quadratic", "smooth strains, so that the stress of every point is right");
+            choose("grid.basis", "quadratic", "smooth strains, and stresses that converge with them");
     }
 
     void points() {
@@ -261,8 +228,9 @@ class Chooser {
         const double outer = outer_ > 0.0 ? outer_ : high[0];
         const double length = std::max(outer - low[0], high[1] - low[1]);
         const auto count = [](double n) { return std::clamp(static_cast<int>(std::ceil(n)), 1, 2000); };
-        const int across =
+        const int least =
             count(annulus ? std::log(outer / low[0]) / size : (outer - low[0]) / (size * length));
+        const int across = fitting(least, low[0], outer, annulus);
         const bool even = not_radial(scene_).empty();
         const int along =
             symmetry_ == Symmetry::radial || (annulus && even)
@@ -270,9 +238,39 @@ class Chooser {
                 : std::min(400, count((high[1] - low[1]) / (annulus ? 4.0 * size * low[0] : size * length)));
         choose(
             "grid.cells", fmt::format("[{}, {}]", across, along),
-            fmt::format("{} for an accuracy of {:g} %",
+            fmt::format("{} for an accuracy of {:g} %{}",
                         annulus ? "each cell wider by the same share" : "the largest extent in equal cells",
-                        100.0 * scene_.accuracy));
+                        100.0 * scene_.accuracy,
+                        across > least
+                            ? fmt::format(", and {} more so that regions end between cells", across - least)
+                            : ""));
+    }
+
+    // By how much of their region's extent edges of regions lie beside the knots of so many cells.
+    double misfit(int cells, double low, double high, bool geometric) const {
+        double worst = 0.0;
+        for (const Region& region : scene_.regions) {
+            const auto& [from, to] = region.extent[0];
+            for (const double edge : {from, to}) {
+                if (edge <= low || edge >= high) continue;
+                const double place = cells * (geometric ? std::log(edge / low) / std::log(high / low)
+                                                        : (edge - low) / (high - low));
+                const double share = std::round(place) / cells;
+                const double knot =
+                    geometric ? low * std::pow(high / low, share) : low + share * (high - low);
+                worst = std::max(worst, std::abs(knot - edge) / (std::min(to, high) - std::max(from, low)));
+            }
+        }
+        return worst;
+    }
+
+    // As few more as lets edges of regions be knots, to the accuracy: cells are of one soil.
+    int fitting(int cells, double low, double high, bool geometric) const {
+        int best = cells;
+        double least = misfit(cells, low, high, geometric);
+        for (int n = cells + 1; least > scene_.accuracy && n <= cells + more_cells; ++n)
+            if (const double here = misfit(n, low, high, geometric); here < least) best = n, least = here;
+        return best;
     }
 
     void strain_step() {

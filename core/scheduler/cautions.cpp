@@ -1,10 +1,13 @@
 #include "core/scheduler/cautions.hpp"
+#include "core/grid/axis.hpp"
+#include "core/scheduler/poisson_ratio.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace gault::core {
 namespace {
@@ -27,11 +30,51 @@ bool is_free_under_stress(const Scene& scene, const SurfaceUse& surface) {
 
 // Whether a boundary stands for elastic soil.
 bool elastic_behind(const Scene& scene) {
-    return scene.frame == Frame::total &&
-           std::any_of(scene.boundaries.begin(), scene.boundaries.end(), [](const BoundaryUse& use) {
-               return static_cast<const gault_boundary_api*>(use.model.component->declaration->api)->flags &
-                      GAULT_BOUNDARY_ELASTIC_BEHIND;
-           });
+    return std::any_of(scene.boundaries.begin(), scene.boundaries.end(), [](const BoundaryUse& use) {
+        return static_cast<const gault_boundary_api*>(use.model.component->declaration->api)->flags &
+               GAULT_BOUNDARY_ELASTIC_BEHIND;
+    });
+}
+
+// Soil that hardly changes its volume, in cells that leave its points no way to.
+std::string locking(const Scene& scene) {
+    if (scene.volumetric_strain != VolumetricStrain::pointwise) return "";
+    const double nu = largest_poisson_ratio(scene);
+    const bool linear = scene.basis == Basis::linear;
+    const int along = scene.symmetry == Symmetry::radial ? scene.points_per_cell
+                                                         : static_cast<int>(std::sqrt(scene.points_per_cell));
+    if (along > (linear ? 1 : 2) && nu > (linear ? 0.45 : 0.49))
+        return fmt::format("caution: with Poisson's ratio {:.5g} at the start these cells lock: pressures "
+                           "come out too high, on "
+                           "few cells by far; without inertia take {}, else quadratic cells with {}",
+                           nu,
+                           scene.symmetry == Symmetry::radial ? "linear cells with one point"
+                                                              : "model.volumetric_strain cell_mean",
+                           scene.symmetry == Symmetry::radial ? "2 points" : "4 points");
+    if (!linear && nu > 0.49)
+        return fmt::format(
+            "caution: with Poisson's ratio {:.5g} at the start the stresses of points scatter in "
+            "quadratic cells{}; pressures do not",
+            nu, scene.frame == Frame::updated ? ", in the updated frame by more than they are" : "");
+    return "";
+}
+
+// Regions take whole cells: where that moves an edge by more than the accuracy's share of the region.
+void edges_within_cells(const Scene& scene, std::vector<std::string>& all) {
+    for (const Region& region : scene.regions)
+        for (std::size_t k = 0; k < 2; ++k) {
+            const std::vector<double> knots = Axis::graded(scene.geometry.lower[k], scene.geometry.upper[k],
+                                                           scene.axes[k].cells, scene.axes[k].ratio);
+            const auto& [low, high] = region.extent[k];
+            for (const auto& [edge, taken] :
+                 {std::pair{low, knots[static_cast<std::size_t>(region.cells.first[k])]},
+                  {high, knots[static_cast<std::size_t>(region.cells.last[k])]}})
+                if (std::abs(edge - taken) > scene.accuracy * (high - low))
+                    all.push_back(
+                        fmt::format("caution: the region '{}' has an edge at {:.4g} m, within a cell; "
+                                    "cells are whole, and it is taken to be at {:.4g} m",
+                                    region.name, edge, taken));
+        }
 }
 
 } // namespace
@@ -64,6 +107,12 @@ std::vector<std::string> cautions(const Scene& scene) {
         all.push_back(
             "caution: four uniform points do not integrate quadratic functions, so surface loads and inertia "
             "disagree; take points.placement gauss, or 9 points");
+    if (std::string caution = locking(scene); !caution.empty()) all.push_back(std::move(caution));
+    if (scene.frame == Frame::updated && elastic_behind(scene))
+        all.push_back(
+            "caution: in the updated frame it is not watched whether soil yields up to the boundary that "
+            "stands for elastic soil; model.frame total says so");
+    edges_within_cells(scene, all);
     return all;
 }
 
@@ -79,7 +128,7 @@ std::vector<std::string> notes(Simulation& simulation) {
 }
 
 RunCautions::RunCautions(Simulation& simulation) : simulation_(simulation) {
-    if (elastic_behind(simulation.scene()))
+    if (simulation.scene().frame == Frame::total && elastic_behind(simulation.scene()))
         elasticity_.emplace(simulation.model(), simulation.solver().motion(),
                             simulation.scene().volumetric_strain);
 }

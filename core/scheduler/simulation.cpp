@@ -10,7 +10,7 @@
 namespace gault::core {
 namespace {
 
-constexpr double start_share = 0.05;              // of the time
+constexpr double start_share = 0.05;              // of the rows
 constexpr std::size_t kinetic_ratio_from_end = 3; // of the columns: see make_columns()
 
 } // namespace
@@ -68,8 +68,9 @@ std::vector<double> Simulation::row() {
 double Simulation::largest_kinetic_ratio(const std::vector<std::vector<double>>& rows) const {
     const std::size_t column = columns_.size() - kinetic_ratio_from_end;
     double largest = 0.0;
-    for (const auto& row : rows)
-        if (row[0] >= start_share * solver_->time()) largest = std::max(largest, row[column]);
+    for (auto k = static_cast<std::size_t>(start_share * static_cast<double>(rows.size())); k < rows.size();
+         ++k)
+        largest = std::max(largest, rows[k][column]);
     return largest;
 }
 

@@ -29,7 +29,7 @@ class Simulation {
     // A row of the history: time, the program's records, and what the host adds.
     const std::vector<ColumnInfo>& columns() const { return columns_; }
     std::vector<double> row();
-    // Of the rows after the first 5 % of the time, in which no load sets in gently.
+    // Of the rows after the first 5 % of them, in which no load sets in gently. (Of the time: a hold would be most of it.)
     double largest_kinetic_ratio(const std::vector<std::vector<double>>& rows) const;
     // The time of the last of all rows whose kinetic ratio is above this; s. 0: none is.
     double quiet_since(const std::vector<std::vector<double>>& rows, double ratio) const;

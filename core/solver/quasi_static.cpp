@@ -12,6 +12,7 @@ namespace {
 constexpr int most_iterations = 20, most_halvings = 5;
 constexpr double shortest = 1e-9; // step, over the longest tried
 constexpr double growth = 10.0;   // of a step over the one before
+constexpr double least_change = 1e-3; // of forces in a step that counts, over all forces
 
 } // namespace
 
@@ -140,31 +141,37 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::evaluate(const Moment& moment) {
     return Outcome::balanced;
 }
 
-double QuasiStaticSolver::unbalanced() const {
-    double free = 0.0, all = 0.0, left = 0.0, way = 0.0;
+// Against the change: where the boundary is far away or the stress high, all forces dwarf those of a loop.
+QuasiStaticSolver::Imbalance QuasiStaticSolver::unbalanced() const {
+    double free = 0.0, all = 0.0, change = 0.0, left = 0.0, way = 0.0;
     each_component([&](Eigen::Index, int k, std::size_t n) {
         const double own = weight(k, n), force = internal_.c[k][n] + traction_.c[k][n] + own;
         all += internal_.c[k][n] * internal_.c[k][n] + traction_.c[k][n] * traction_.c[k][n] + own * own;
+        change += std::pow(internal_.c[k][n] - before_.internal.c[k][n], 2) +
+                  std::pow(traction_.c[k][n] - before_.traction.c[k][n], 2);
         way += wanted_.c[k][n] * wanted_.c[k][n] + du_.c[k][n] * du_.c[k][n];
         if (fixed_.c[k][n] == 0.0)
             free += force * force;
         else
             left += std::pow(wanted_.c[k][n] - du_.c[k][n], 2);
     });
-    if (!std::isfinite(all + free + way + left)) return HUGE_VAL;
-    return std::max(all > 0.0 ? std::sqrt(free / all) : 0.0, left > 0.0 ? std::sqrt(left / way) : 0.0);
+    if (!std::isfinite(all + free + way + left)) return {HUGE_VAL, HUGE_VAL};
+    const double moved = std::max(std::sqrt(change), least_change * std::sqrt(all));
+    const double missed = left > 0.0 ? std::sqrt(left / way) : 0.0;
+    return {std::max(all > 0.0 ? std::sqrt(free / all) : 0.0, missed),
+            std::max(moved > 0.0 ? std::sqrt(free) / moved : 0.0, missed)};
 }
 
 QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
     Outcome outcome = evaluate(moment);
     if (outcome != Outcome::balanced) return outcome;
-    double error = unbalanced();
-    residuals_ = {error};
+    Imbalance error = unbalanced();
+    residuals_ = {error.of_all};
     for (int n = 0; n < most_iterations; ++n) {
-        if (error <= settings_.tolerance) return Outcome::balanced;
+        if (error.of_change <= settings_.tolerance) return Outcome::balanced;
         if (!correct()) return Outcome::diverged;
         ++iterations_;
-        const double before = error;
+        const double before = error.of_all;
         const VectorField from = du_;
         double share = 1.0;
         for (int halving = 0;; ++halving, share *= 0.5) {
@@ -172,17 +179,20 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
                 for (std::size_t q = 0; q < du_.c[k].size(); ++q)
                     du_.c[k][q] = from.c[k][q] + share * correction_.c[k][q];
             outcome = evaluate(moment);
-            error = outcome == Outcome::balanced ? unbalanced() : HUGE_VAL;
-            if (outcome == Outcome::balanced && (n == 0 || error < before || error <= settings_.tolerance))
+            error = outcome == Outcome::balanced ? unbalanced() : Imbalance{HUGE_VAL, HUGE_VAL};
+            if (outcome == Outcome::balanced &&
+                (n == 0 || error.of_all < before || error.of_change <= settings_.tolerance))
                 break;
+            // Nearer than rounding it does not come.
+            if (std::max(before, error.of_all) <= settings_.tolerance) return Outcome::balanced;
             // A first correction that strains too much says that the step is too long.
             if (halving == most_halvings || (n == 0 && outcome == Outcome::strained))
                 return outcome == Outcome::balanced ? Outcome::diverged : outcome;
         }
-        residuals_.push_back(error);
+        residuals_.push_back(error.of_all);
         if (steps_ == 0 && n == 0 && largest_strain_ > settings_.strain_step) return Outcome::strained;
     }
-    return Outcome::diverged;
+    return error.of_all <= settings_.tolerance ? Outcome::balanced : Outcome::diverged;
 }
 
 // One Newton correction; false where there is none. Fixed components go where they are wanted; what nothing

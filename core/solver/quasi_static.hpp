@@ -25,8 +25,11 @@ class QuasiStaticSolver final : public Solver {
     enum class Outcome { balanced, strained, diverged };
     Outcome iterate(const Moment& moment);
     Outcome evaluate(const Moment& moment);
-    double unbalanced()
-        const; // norm of the forces on free components over the largest norm of forces, or the way left
+    struct Imbalance {    // norm of the forces on free components, or the way left
+        double of_all;    // over the norm of all forces
+        double of_change; // over that of their change in the step, at least of the least that counts
+    };
+    Imbalance unbalanced() const;
     bool correct();
     bool shorten(double fraction, double dt);
     void restore(); // the start of the step
@@ -52,10 +55,10 @@ class QuasiStaticSolver final : public Solver {
     std::unique_ptr<Motion::State> start_;
     const bool rate_dependent_; // a soil's answer depends on the rate
     double allowed_, dt_before_ = 0.0, least_ = 0.0, largest_strain_ = 0.0;
-    double way_ = 0.0, way_before_ = 0.0; // of the fastest node in the step, m; of all steps before it
-    double usual_ = 0.0;                  // length that was allowed before an event cut a step short, s
-    double fraction_ = 0.5;               // of the step, after one that failed
-    std::string reason_;                  // why it failed
+    double way_ = 0.0, way_before_ = 0.0;      // of the fastest node in the step, m; of all steps before it
+    double usual_ = 0.0;                       // length that was allowed before an event cut a step short, s
+    double fraction_ = 0.5;                    // of the step, after one that failed
+    std::string reason_;                       // why it failed
     std::shared_ptr<const PointError> failed_; // because a soil had no result
     int64_t iterations_ = 0;
     std::vector<double> residuals_;

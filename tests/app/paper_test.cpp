@@ -113,6 +113,17 @@ TEST_F(PaperScenes, FaheysTestMeetsItsReferenceInTheUpdatedFrame) {
     EXPECT_GT(share_that_crossed(72, 0.02, 0.2), 0.2) << "points cross cells there";
 }
 
+// A hold is most of the time and a few of the rows: it must not take what came before for the start of the load.
+TEST_F(PaperScenes, FaheysTestAtTwoHundredTimesItsRateIsCautionedAfterAHoldToo) {
+    run("configs/paper/fahey.yaml", {"--set", "grid.cells=[18, 1]", "--set", "points.per_cell=4", "--set",
+                                     "program={type: pressuremeter, on: inner, rate: 200 mm/s, phases: "
+                                     "[expand: {until: {cavity_strain: 10 %}}, "
+                                     "hold: {of: wall, duration: 0.2 s}]}"});
+    const auto cautions = summary(results)["cautions"];
+    ASSERT_EQ(cautions.size(), 1u);
+    EXPECT_TRUE(has(cautions[0], "kinetic energy reached")) << cautions[0];
+}
+
 struct WithoutInertia {
     const char* name;
     Words changes;
