@@ -77,11 +77,12 @@ core::Scene LoadedScene::reread(const std::vector<core::Override>& more) const {
     return read(joined(core::overrides_of(choices_), more));
 }
 
-std::vector<core::Override> everything_open() {
-    return {{"model.symmetry", "auto"}, {"model.frame", "auto"},
-            {"model.solver", "auto"},   {"model.volumetric_strain", "auto"},
-            {"grid", "auto"},           {"points", "auto"},
-            {"solver", "auto"}};
+std::vector<core::Override> everything_open(const core::Scene& scene) {
+    std::vector<core::Override> open{
+        {"model.frame", "auto"}, {"model.solver", "auto"}, {"model.volumetric_strain", "auto"},
+        {"grid", "auto"},        {"points", "auto"},       {"solver", "auto"}};
+    if (scene.symmetry != core::Symmetry::radial) open.push_back({"model.symmetry", "auto"});
+    return open;
 }
 
 void declare_plugin_path(CLI::App& options, std::vector<std::filesystem::path>& plugin_path) {

@@ -79,8 +79,8 @@ class LoadedElementTest {
     core::ElementTest test_;
 };
 
-// Leaves all that a plan may choose open.
-std::vector<core::Override> everything_open();
+// Leaves all that a plan may choose open; but a radial scene stays one: it need not say what holds its ends.
+std::vector<core::Override> everything_open(const core::Scene& scene);
 
 // The folder of bin, lib and share that this program runs in: of an installation, or a build tree.
 std::filesystem::path installation();

@@ -29,7 +29,7 @@ core::Study study_of(const LoadedScene& scene, const Arguments& arguments) {
     study.title = scene->title;
     study.scene = arguments.scene.file;
     core::Study::Family written{"as written, cells", {}, {}},
-        chosen{"as chosen for an accuracy", everything_open(), {}};
+        chosen{"as chosen for an accuracy", everything_open(*scene), {}};
     const auto& axes = scene->axes;
     for (const double factor : {0.5, 1.0, 2.0}) {
         const auto finer = [&](int n) { return n == 1 ? 1 : std::max(2, static_cast<int>(n * factor)); };

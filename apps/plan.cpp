@@ -48,7 +48,7 @@ std::vector<core::Choice> by_hand(const LoadedScene& scene, const LoadedScene& l
 }
 
 void compare_with_least(const LoadedScene& scene, const SceneArguments& arguments) try {
-    const LoadedScene least(arguments, everything_open());
+    const LoadedScene least(arguments, everything_open(*scene));
     const auto set = by_hand(scene, least);
     if (set.empty()) return;
     fmt::print("\nset by hand, where this would have been chosen:\n");

@@ -192,7 +192,9 @@ class Chooser {
     void basis() {
         if (!open("grid.basis")) return;
         const bool one = open("points.per_cell") || scene_.points_per_cell == 1;
-        basis_ = radial_without_inertia() && one ? Basis::linear : Basis::quadratic;
+        const bool stays =
+            frame_ == Frame::total; // in place: forces of linear cells jump where points cross them
+        basis_ = radial_without_inertia() && one && stays ? Basis::linear : Basis::quadratic;
         if (basis_ == Basis::linear)
             choose("grid.basis", "linear", "with one point a cell: stresses of second order, no locking");
         else

@@ -33,8 +33,17 @@ struct DruckerPrager { // f = sqrt(J2) + eta p - k, p the mean stress, tension p
         elastic_modulus = bulk + 4 * shear / 3;
         // The largest d s_i / d e_i of all deviators: above the elastic one where flow is not associated.
         const double s_i = std::max(-2 / std::sqrt(3), -bulk * (eta + flow) / (2 * shear)); // over tau
-        const double lost = (shear * s_i + bulk * flow) * (shear * s_i + bulk * eta) / (shear + bulk * eta * flow);
+        const double lost =
+            (shear * s_i + bulk * flow) * (shear * s_i + bulk * eta) / (shear + bulk * eta * flow);
         yielding_modulus = elastic_modulus - std::min(lost, 0.0);
+    }
+
+    void start(gault::Point& p) const {
+        const auto& s = p.stress_old;
+        const Pack mean = (s[0] + s[1] + s[2]) / 3, x = s[0] - mean, y = s[1] - mean, z = s[2] - mean;
+        const Pack tau = sqrt(0.5 * (x * x + y * y + z * z) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+        p.fail(tau + eta * mean - k > 1e-9 * (1 + gault::abs(mean)), // a person's digits
+               "the initial stress exceeds the Drucker-Prager strength");
     }
 
     void update(gault::Point& p) const {

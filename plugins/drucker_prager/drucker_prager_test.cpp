@@ -108,6 +108,19 @@ TEST(DruckerPrager, FlowsAsItsDilationAngleSays) {
     EXPECT_NEAR(b.state[0][0], multiplier / std::sqrt(3.0), 1e-12);
 }
 
+TEST(DruckerPrager, RefusesAnInitialStressBeyondItsCone) {
+    // Triaxial compression, where it is Mohr-Coulomb: s_1 = N s_3 + 2 c sqrt(N), 56.1115 kPa beside 10 kPa.
+    const Component c = soil();
+    for (const auto& [along, status] : {std::pair{56.111e3, GAULT_OK}, {56.113e3, GAULT_FAILED}}) {
+        Batch b(c, 1);
+        b.set_stress_old(0, {-10e3, -along, -10e3, 0.0, 0.0, 0.0});
+        EXPECT_EQ(b.start(), status);
+        const bool said =
+            std::string(b.error.text).find("exceeds the Drucker-Prager strength") != std::string::npos;
+        EXPECT_EQ(said, status == GAULT_FAILED);
+    }
+}
+
 TEST(DruckerPrager, GivesTheSameBitsOnEveryProcessor) {
     std::vector<Tensor> first;
     for (const std::string& variant : variants()) {
