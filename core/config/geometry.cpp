@@ -131,6 +131,7 @@ void read_model(const Source& source, Scene& scene) {
                             "the geometry is " + std::string(kind == "annulus" ? "an " : "a ") + kind);
     scene.symmetry_open = kind != "block" && is_auto(fields.find("symmetry"));
     if (const Node* symmetry = fields.find("symmetry")) check_symmetry(*symmetry, scene);
+    scene.height = {scene.geometry.lower[1], scene.geometry.upper[1]};
     if (scene.symmetry == Symmetry::radial) {
         scene.geometry.lower[1] = 0.0;
         scene.geometry.upper[1] = 1.0;

@@ -67,6 +67,10 @@ class RegionReader {
     int material_of(const Fields& fields, const std::string& name);
     void read_cells(const Fields& fields, Region& region) const;
     std::array<double, 2> read_extent(const Fields& fields, std::size_t axis) const;
+    bool cells_are_open() const {
+        return std::any_of(scene_.chosen.begin(), scene_.chosen.end(),
+                           [](const Choice& choice) { return choice.key == "grid.cells"; });
+    }
 };
 
 void RegionReader::read(const Node& regions) {
@@ -127,8 +131,12 @@ void RegionReader::read_cells(const Fields& fields, Region& region) const {
     for (std::size_t axis = 0; axis < 2; ++axis) {
         const auto& centres = centres_[axis];
         const auto [low, high] = read_extent(fields, axis);
-        const auto first = std::lower_bound(centres.begin(), centres.end(), low);
-        const auto last = std::upper_bound(first, centres.end(), high);
+        auto first = std::lower_bound(centres.begin(), centres.end(), low);
+        auto last = std::upper_bound(first, centres.end(), high);
+        if (first == last && cells_are_open()) { // the plan has yet to choose finer ones
+            if (first == centres.end()) --first;
+            last = first + 1;
+        }
         if (first == last)
             throw InputError(
                 fields.where(),
@@ -148,6 +156,12 @@ std::array<double, 2> RegionReader::read_extent(const Fields& fields, std::size_
     const Node* node = fields.find(name);
     if (node == nullptr) return {lower, upper};
     const auto range = read_range(*node, fields.path(name), "m");
+    if (axis == 1 && scene_.symmetry == Symmetry::radial) {
+        if (range[0] <= scene_.height[0] && range[1] >= scene_.height[1]) return {lower, upper};
+        throw InputError(node->where(), fields.path(name) +
+                                            ": in radial symmetry nothing ends along the height; "
+                                            "leave it out, or write `symmetry: axisymmetric`");
+    }
     if (range[1] <= lower || range[0] >= upper)
         throw InputError(node->where(),
                          fmt::format("{} lies outside of the grid, which goes from {:g} m to {:g} m",

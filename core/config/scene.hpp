@@ -154,6 +154,8 @@ struct Scene {
     // The sides, low x, high x, low y, high y, then the parts. annulus: inner outer bottom top; cylinder: axis
     // outer bottom top; block: left right bottom top.
     std::vector<SurfaceUse> surfaces;
+    std::array<double, 2>
+        height; // of the body as written, from and to, m; in radial symmetry the grid has one of 1 m
     std::array<GridAxis, 2> axes;
     int points_per_cell; // a square number; in radial symmetry any, along the radius
     Placement placement;

@@ -86,8 +86,8 @@ Pilot run_pilot(const Scene& scene, const Reread& reread, double seconds, const 
         };
         while (!simulation.done()) {
             const double event = simulation.next_event();
-            simulation.step();
-            if (simulation.done() || solver.time() == event) mark();
+            const bool moved = simulation.step() == Simulation::Moved::yes;
+            if (moved && (simulation.done() || solver.time() >= (1.0 - 1e-12) * event)) mark();
             if (std::chrono::steady_clock::now() - start > std::chrono::duration<double>(seconds)) {
                 pilot.trouble = fmt::format("a pilot on a coarse grid was stopped after {:g} s", seconds);
                 break;

@@ -12,11 +12,11 @@ struct Pilot {
     int64_t steps = 0, updates = 0, iterations = 0;
     double end = 0.0;              // of the program, s
     double inelastic_radius = 0.0; // the largest, reference, at which the soil is not elastic at the end, m
-    struct
-        Mark { // of the program's surface at the end of the program, or at an event before: where a phase ends
+    // Of the program's surface, where the program stopped a step: at ends of phases, rows, its end.
+    struct Mark {
         double time, force, displacement; // s, N, m
     };
-    std::vector<Mark> marks;  // none: it has no surface
+    std::vector<Mark> marks;  // in time; none: it has no surface
     std::string trouble;      // why it did not come to its end; empty: it did
     std::exception_ptr wrong; // the scene is
 };

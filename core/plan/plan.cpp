@@ -145,8 +145,10 @@ class Chooser {
                 fmt::format("the outer radius cannot be chosen: {}. If the program is right, write a "
                             "radius, and a boundary on outer that stands for the soil beyond",
                             pilot.trouble));
-        outer_ = std::max(room * pilot.inelastic_radius, least_radii * inner);
-        choose("geometry.annulus.outer_radius", fmt::format("{:.4g} m", outer_),
+        const std::string metres =
+            fmt::format("{:.4g}", std::max(room * pilot.inelastic_radius, least_radii * inner));
+        outer_ = std::stod(metres);
+        choose("geometry.annulus.outer_radius", metres + " m",
                pilot.inelastic_radius > 0.0
                    ? fmt::format("the soil is elastic beyond {:.3g} m, as a pilot run shows",
                                  pilot.inelastic_radius)
@@ -232,20 +234,21 @@ class Chooser {
         const auto count = [](double n) { return std::clamp(static_cast<int>(std::ceil(n)), 1, 2000); };
         const int least =
             count(annulus ? std::log(outer / low[0]) / size : (outer - low[0]) / (size * length));
-        const int across = fitting(least, low[0], outer, annulus);
         const bool even = not_radial(scene_).empty();
         const int along =
             symmetry_ == Symmetry::radial || (annulus && even)
                 ? 1
                 : std::min(400, count((high[1] - low[1]) / (annulus ? 4.0 * size * low[0] : size * length)));
+        const bool row = along == 1 && left_open(scene_, scene_.geometry.kind == "block" ? "grid.grading.x"
+                                                                                         : "grid.grading.r");
+        const int across = row ? fitting(least, low[0], outer, annulus) : least;
         choose(
             "grid.cells", fmt::format("[{}, {}]", across, along),
             fmt::format("{} for an accuracy of {:g} %{}",
                         annulus ? "each cell wider by the same share" : "the largest extent in equal cells",
                         100.0 * scene_.accuracy,
-                        across > least
-                            ? fmt::format(", and {} more so that regions end between cells", across - least)
-                            : ""));
+                        across > least ? fmt::format(", and {} more for the edges of regions", across - least)
+                                       : ""));
     }
 
     // By how much of their region's extent edges of regions lie beside the knots of so many cells.
@@ -266,13 +269,14 @@ class Chooser {
         return worst;
     }
 
-    // As few more as lets edges of regions be knots, to the accuracy: cells are of one soil.
+    // So many cells, or the few more with which edges of regions are knots, to the accuracy, or five times as near.
     int fitting(int cells, double low, double high, bool geometric) const {
         int best = cells;
-        double least = misfit(cells, low, high, geometric);
+        const double before = misfit(cells, low, high, geometric);
+        double least = before;
         for (int n = cells + 1; least > scene_.accuracy && n <= cells + more_cells; ++n)
             if (const double here = misfit(n, low, high, geometric); here < least) best = n, least = here;
-        return best;
+        return least <= std::max(scene_.accuracy, 0.2 * before) ? best : cells;
     }
 
     void strain_step() {

@@ -10,7 +10,7 @@ struct StepLength {
 };
 
 // From two pilot runs of the scene, with usual and with shorter steps: force and displacement of the program's surface at
-// the end.
+// ends of phases, as far as their times are the same, and at its end.
 StepLength longest_step(const Scene& scene, const Reread& reread, double patience);
 
 } // namespace gault::core

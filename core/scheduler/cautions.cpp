@@ -70,10 +70,14 @@ void edges_within_cells(const Scene& scene, std::vector<std::string>& all) {
                  {std::pair{low, knots[static_cast<std::size_t>(region.cells.first[k])]},
                   {high, knots[static_cast<std::size_t>(region.cells.last[k])]}})
                 if (std::abs(edge - taken) > scene.accuracy * (high - low))
-                    all.push_back(
-                        fmt::format("caution: the region '{}' has an edge at {:.4g} m, within a cell; "
-                                    "cells are whole, and it is taken to be at {:.4g} m",
-                                    region.name, edge, taken));
+                    all.push_back(fmt::format("caution: the region '{}' has an edge at {:.4g} m along {}, "
+                                              "within a cell; cells are whole, "
+                                              "and it is taken to be at {:.4g} m",
+                                              region.name, edge,
+                                              k == 1                           ? "y"
+                                              : scene.geometry.kind == "block" ? "x"
+                                                                               : "r",
+                                              taken));
         }
 }
 

@@ -4,6 +4,7 @@
 #include "core/solver/motion.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace gault::core {
 namespace {
@@ -39,10 +40,13 @@ double poisson_ratio(const Scene& scene, const MaterialUse& use) {
 } // namespace
 
 double largest_poisson_ratio(const Scene& scene) {
+    std::set<int> used{scene.base_material};
+    for (const Region& region : scene.regions)
+        used.insert(region.material);
     double largest = -1.0;
-    for (const MaterialUse& use : scene.materials)
+    for (const int m : used)
         try {
-            largest = std::max(largest, poisson_ratio(scene, use));
+            largest = std::max(largest, poisson_ratio(scene, scene.materials[static_cast<std::size_t>(m)]));
         } catch (const RunError&) {
         }
     return largest;

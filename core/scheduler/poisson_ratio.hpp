@@ -4,7 +4,7 @@
 
 namespace gault::core {
 
-// Of the materials, each under the initial stress at half the height; from their P-wave and shear moduli there. -1: none
+// Of the materials of the base and the regions, each under the initial stress at half the height; from their P-wave and shear moduli there. -1: none
 // of them can bear that stress, which the run will say.
 double largest_poisson_ratio(const Scene& scene);
 

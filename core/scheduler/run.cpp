@@ -49,7 +49,7 @@ class Run {
           simulation_(scene, threads_), verification_(scene, simulation_.columns()),
           provenance_(provenance()),
           writer_(options.folder, options.replace, simulation_.columns(), provenance_, simulation_.points()),
-          cautions_(simulation_) {}
+          of_the_scene_(cautions(scene)), cautions_(simulation_) {}
 
     Outcome go();
 
@@ -77,6 +77,7 @@ class Run {
     Verification verification_;
     const Provenance provenance_; // of the files as they were at the start
     ResultWriter writer_;
+    const std::vector<std::string> of_the_scene_; // cautions
     RunCautions cautions_;
     int64_t frame_step_ = -1, frames_ = 0;
     double stepping_ = 0.0; // s
@@ -178,7 +179,7 @@ nlohmann::json Run::plan() {
 void Run::summary(const char* status, const std::string& message) {
     const double wall = seconds_since(start_);
     const Grid& grid = simulation_.model().grid;
-    std::vector<std::string> said = cautions(scene_);
+    std::vector<std::string> said = of_the_scene_;
     for (std::string& caution : cautions_.now(writer_.rows(), status == std::string("done")))
         said.push_back(std::move(caution));
     nlohmann::json s = {
@@ -269,7 +270,7 @@ void Run::finish() {
 }
 
 Outcome Run::go() {
-    for (const std::string& caution : cautions(scene_))
+    for (const std::string& caution : of_the_scene_)
         log::warn("{}", caution);
     if (!options_.quiet)
         for (const std::string& note : notes(simulation_))

@@ -10,9 +10,11 @@ namespace gault::core {
 namespace {
 
 constexpr int most_iterations = 20, most_halvings = 5;
-constexpr double shortest = 1e-9; // step, over the longest tried
-constexpr double growth = 10.0;   // of a step over the one before
+constexpr double shortest = 1e-9;     // step, over the longest tried
+constexpr double growth = 10.0;       // of a step over the one before
 constexpr double least_change = 1e-3; // of forces in a step that counts, over all forces
+constexpr double least_forces =
+    1e-3; // that count, over the largest in the steps before: below is their rounding
 
 } // namespace
 
@@ -64,6 +66,7 @@ bool QuasiStaticSolver::step(double dt) {
                        dt);
     }
     each_component([&](Eigen::Index, int k, std::size_t n) { velocity_.c[k][n] = du_.c[k][n] / dt; });
+    largest_forces_ = std::max(largest_forces_, unbalanced().forces);
     motion_->arrive(du_, dt);
     account(dt);
     du_before_ = du_;
@@ -155,11 +158,12 @@ QuasiStaticSolver::Imbalance QuasiStaticSolver::unbalanced() const {
         else
             left += std::pow(wanted_.c[k][n] - du_.c[k][n], 2);
     });
-    if (!std::isfinite(all + free + way + left)) return {HUGE_VAL, HUGE_VAL};
-    const double moved = std::max(std::sqrt(change), least_change * std::sqrt(all));
+    if (!std::isfinite(all + free + way + left)) return {HUGE_VAL, HUGE_VAL, 0.0};
+    const double forces = std::max(std::sqrt(all), least_forces * largest_forces_);
+    const double moved = std::max(std::sqrt(change), least_change * forces);
     const double missed = left > 0.0 ? std::sqrt(left / way) : 0.0;
-    return {std::max(all > 0.0 ? std::sqrt(free / all) : 0.0, missed),
-            std::max(moved > 0.0 ? std::sqrt(free) / moved : 0.0, missed)};
+    return {std::max(forces > 0.0 ? std::sqrt(free) / forces : 0.0, missed),
+            std::max(moved > 0.0 ? std::sqrt(free) / moved : 0.0, missed), forces};
 }
 
 QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
@@ -167,9 +171,9 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
     if (outcome != Outcome::balanced) return outcome;
     Imbalance error = unbalanced();
     residuals_ = {error.of_all};
-    for (int n = 0; n < most_iterations; ++n) {
-        if (error.of_change <= settings_.tolerance) return Outcome::balanced;
-        if (!correct()) return Outcome::diverged;
+    for (int n = 0; n < most_iterations && error.of_change > settings_.tolerance; ++n) {
+        const bool enough = error.of_all <= settings_.tolerance; // if rounding lets it come no nearer
+        if (!correct()) return enough ? Outcome::balanced : Outcome::diverged;
         ++iterations_;
         const double before = error.of_all;
         const VectorField from = du_;
@@ -179,12 +183,14 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
                 for (std::size_t q = 0; q < du_.c[k].size(); ++q)
                     du_.c[k][q] = from.c[k][q] + share * correction_.c[k][q];
             outcome = evaluate(moment);
-            error = outcome == Outcome::balanced ? unbalanced() : Imbalance{HUGE_VAL, HUGE_VAL};
+            error = outcome == Outcome::balanced ? unbalanced() : Imbalance{HUGE_VAL, HUGE_VAL, 0.0};
             if (outcome == Outcome::balanced &&
                 (n == 0 || error.of_all < before || error.of_change <= settings_.tolerance))
                 break;
-            // Nearer than rounding it does not come.
-            if (std::max(before, error.of_all) <= settings_.tolerance) return Outcome::balanced;
+            if (enough) {
+                du_ = from;
+                return evaluate(moment);
+            }
             // A first correction that strains too much says that the step is too long.
             if (halving == most_halvings || (n == 0 && outcome == Outcome::strained))
                 return outcome == Outcome::balanced ? Outcome::diverged : outcome;
@@ -192,7 +198,8 @@ QuasiStaticSolver::Outcome QuasiStaticSolver::iterate(const Moment& moment) {
         residuals_.push_back(error.of_all);
         if (steps_ == 0 && n == 0 && largest_strain_ > settings_.strain_step) return Outcome::strained;
     }
-    return error.of_all <= settings_.tolerance ? Outcome::balanced : Outcome::diverged;
+    return std::min(error.of_change, error.of_all) <= settings_.tolerance ? Outcome::balanced
+                                                                          : Outcome::diverged;
 }
 
 // One Newton correction; false where there is none. Fixed components go where they are wanted; what nothing

@@ -28,6 +28,7 @@ class QuasiStaticSolver final : public Solver {
     struct Imbalance {    // norm of the forces on free components, or the way left
         double of_all;    // over the norm of all forces
         double of_change; // over that of their change in the step, at least of the least that counts
+        double forces;    // norm of all forces, at least of the least that count
     };
     Imbalance unbalanced() const;
     bool correct();
@@ -61,6 +62,7 @@ class QuasiStaticSolver final : public Solver {
     std::string reason_;                       // why it failed
     std::shared_ptr<const PointError> failed_; // because a soil had no result
     int64_t iterations_ = 0;
+    double largest_forces_ = 0.0; // norm of all forces in the steps so far
     std::vector<double> residuals_;
 };
 

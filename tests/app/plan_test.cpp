@@ -163,6 +163,24 @@ TEST_F(Plan, EndsCellsWhereRegionsEnd) {
         << "the accuracy asked for";
 }
 
+// When a phase ends that waits for a pressure depends on the steps, and times are rounded: neither says anything of steps.
+TEST_F(Plan, TakesNoOtherMomentsForADifference) {
+    const auto step = [&](const std::string& program) {
+        return choice(
+                   plan("configs/paper/fahey_auto.yaml", {"reference={}", "output={}", "program=" + program}),
+                   "solver.strain_step")
+            .substr(0, 6);
+    };
+    EXPECT_EQ(step("{type: pressuremeter, on: inner, phases: [expand: {pressure_rate: 10 kPa/s, until: "
+                   "{cavity_strain: 2 %}}, "
+                   "unload: {pressure_rate: 10 kPa/s, until: {pressure: 100 kPa}}]}"),
+              "0.005 ");
+    EXPECT_EQ(
+        step("{type: pressuremeter, on: inner, rate: 1 mm/s, phases: [expand: {until: {cavity_strain: 2 %}}, "
+             "unload: {until: {cavity_strain: 1 %}}, expand: {until: {pressure: 500 kPa}}]}"),
+        "0.005 ");
+}
+
 // Steps that are too long for the beginning of a test do not show at its end, where sand flows.
 TEST_F(Plan, ComparesStepsAtTheEndOfEveryPhase) {
     const std::string sand =

@@ -61,7 +61,7 @@ TEST(Cautions, NameEdgesOfRegionsWithinCells) {
     EXPECT_THAT(said("50", ring), IsEmpty()); // 2 mm each
     EXPECT_THAT(said("40", ring), IsEmpty()); // 2.5 mm each
     EXPECT_THAT(said("25", ring),             // 4 mm each
-                Contains(HasSubstr("the region 'ring' has an edge at 0.03 m, within a cell; cells are whole, "
+                Contains(HasSubstr("the region 'ring' has an edge at 0.03 m along r, within a cell; cells are whole, "
                                    "and it is taken to be at ")));
 }
 

@@ -46,5 +46,26 @@ TEST(Loops, OfSoftClayUnderHighStressHaveItsShearModulus) {
     }
 }
 
+// Unloaded to nothing, all forces are rounding, and there is nothing to balance to a share of them.
+TEST(Loops, RestWithoutAnyLoad) {
+    for (const char* symmetry : {"radial", "axisymmetric"}) {
+        HardScene s(
+            "hard/elastic_cavity",
+            {{"model", fmt::format("{{symmetry: {}, solver: quasi_static}}", symmetry)},
+             {"geometry.annulus.outer_radius", "40 mm"},
+             {"materials.soil.young_modulus", "10 MPa"},
+             {"materials.soil.poisson_ratio", "0.3"},
+             {"grid.cells", "[30, 1]"},
+             {"points.per_cell", std::string(symmetry) == "radial" ? "2" : "4"},
+             {"boundaries", "[{on: outer, type: pressure}, {on: [top, bottom], type: roller}, {on: inner, "
+                            "type: pressure}]"},
+             {"program",
+              "{type: ramp, on: inner, smooth: false, pressure: [[0 s, 0 kPa], [1 s, 0 kPa], [2 s, 100 kPa], "
+              "[3 s, 0 kPa], [4 s, 0 kPa], [5 s, 10 kPa]]}"}});
+        s.run();
+        EXPECT_NEAR(s.solver.time(), 5.0, 1e-12);
+    }
+}
+
 } // namespace
 } // namespace gault::core::test

@@ -38,6 +38,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -62,6 +63,7 @@ using Records = std::vector<std::variant<Kinds...>>; // in the order of the scen
 struct Parameter {
     gault_parameter declaration;
     void (*assign)(void* owner, const gault_value&);
+    std::string_view member; // names it, for the compiler's eyes alone
 
     constexpr Parameter fallback(double value) const {
         Parameter p = *this;
@@ -156,7 +158,7 @@ template <class Array>
 constexpr bool have_members_of_their_own(const Array& parameters) {
     for (std::size_t i = 0; i < parameters.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (parameters[i].assign == parameters[j].assign) return false;
+            if (parameters[i].member == parameters[j].member) return false;
     return true;
 }
 template <class T>
@@ -271,6 +273,12 @@ constexpr void limit(gault_parameter& p) {
         p.min = static_cast<double>(Limits::min());
 }
 
+// Not its address: with -fsanitize=undefined gcc does not compare addresses when it compiles.
+template <auto Member>
+constexpr std::string_view spelled() {
+    return __PRETTY_FUNCTION__;
+}
+
 template <auto Member>
 constexpr Parameter declare(const char* name, const char* symbol, const char* x_unit, const char* unit,
                             const char* doc) {
@@ -288,7 +296,7 @@ constexpr Parameter declare(const char* name, const char* symbol, const char* x_
     p.max = infinity;
     if constexpr (Binding<Value>::type == GAULT_INTEGER) limit<typename without_optional<Value>::type>(p);
     if constexpr (Binding<Value>::type == GAULT_RECORDS) p.kinds = Binding<Value>::kinds;
-    return {p, &assign<Member>};
+    return {p, &assign<Member>, spelled<Member>()};
 }
 
 inline void report(gault_error* error, int32_t parameter, int64_t point, const char* text) {
