@@ -57,8 +57,9 @@ TEST(Loops, RestWithoutAnyLoad) {
              {"materials.soil.poisson_ratio", "0.3"},
              {"grid.cells", "[30, 1]"},
              {"points.per_cell", std::string(symmetry) == "radial" ? "2" : "4"},
-             {"boundaries", "[{on: outer, type: pressure}, {on: [top, bottom], type: roller}, {on: inner, "
-                            "type: pressure}]"},
+             {"boundaries",
+              "[{on: outer, type: pressure, value: 0 Pa}, {on: [top, bottom], type: roller}, {on: inner, "
+              "type: pressure}]"},
              {"program",
               "{type: ramp, on: inner, smooth: false, pressure: [[0 s, 0 kPa], [1 s, 0 kPa], [2 s, 100 kPa], "
               "[3 s, 0 kPa], [4 s, 0 kPa], [5 s, 10 kPa]]}"}});
