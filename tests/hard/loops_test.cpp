@@ -55,8 +55,8 @@ TEST(Loops, RestWithoutAnyLoad) {
              {"geometry.annulus.outer_radius", "40 mm"},
              {"materials.soil.young_modulus", "10 MPa"},
              {"materials.soil.poisson_ratio", "0.3"},
-             {"grid.cells", "[30, 1]"},
-             {"points.per_cell", std::string(symmetry) == "radial" ? "2" : "4"},
+             {"grid", "{cells: [10, 1], grading: {r: geometric}, basis: linear}"},
+             {"points.per_cell", std::string(symmetry) == "radial" ? "1" : "4"},
              {"boundaries",
               "[{on: outer, type: pressure, value: 0 Pa}, {on: [top, bottom], type: roller}, {on: inner, "
               "type: pressure}]"},
