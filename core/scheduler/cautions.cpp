@@ -145,7 +145,7 @@ std::vector<std::string> RunCautions::now(const std::vector<std::vector<double>>
 }
 
 // A quasi-static curve of a run that is not quasi-static is the commonest misuse of mass scaling. The pressure of a
-// cavity is off by three to six times the ratio (docs/accuracy.md, loading rate): by about half a percent at this limit.
+// cavity is off by up to six times the ratio (docs/accuracy.md, loading rate): by about half a percent at this limit.
 std::string RunCautions::kinetic(const std::vector<std::vector<double>>& rows) const {
     const double ratio = simulation_.largest_kinetic_ratio(rows);
     constexpr double quasi_static = 1e-3;
